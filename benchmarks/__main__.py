@@ -8,25 +8,13 @@ from rich.console import Console
 from benchmarks.assemblies import assemblies, first_use, masses, moat
 from benchmarks.basins import basins
 from benchmarks.branches import branches
-from benchmarks.campaign import campaign
-from benchmarks.clusters import clusters
-from benchmarks.designs import designs
-from benchmarks.diagrams import diagrams
 from benchmarks.earthquakes import earthquakes
-from benchmarks.fixed import fixed
-from benchmarks.growth import growth
-from benchmarks.identification import identification
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
-from benchmarks.memory import memory
-from benchmarks.motions import motions
 from benchmarks.page import page
 from benchmarks.records import records
 from benchmarks.report import Table, show, write
-from benchmarks.scenarios import scenarios
-from benchmarks.size import size
 from benchmarks.smooth import smooth
-from benchmarks.spectra import spectra
 from benchmarks.startup import compiling, first_figure, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
@@ -38,21 +26,13 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "short": lambda: (short_runs(peers()),),
         "laws": lambda: (laws(), yielding(), sampling(), *smooth()),
         "assemblies": lambda: (*assemblies(), masses(), moat(), first_use()),
-        "records": lambda: (records(), spectra()),
+        "records": lambda: (records(),),
         "earthquakes": lambda: (earthquakes(),),
-        "campaign": lambda: (campaign(),),
-        "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
         "basins": lambda: (basins(),),
-        "clusters": lambda: (clusters(),),
         "page": lambda: (page(),),
-        "scenarios": lambda: (scenarios(),),
-        "designs": lambda: (designs(),),
-        "diagrams": lambda: (diagrams(),),
-        "identification": lambda: (identification(),),
-        "fixed": lambda: (fixed(), growth()),
         "figure": lambda: (first_figure(),),
-        "startup": lambda: (startup(compiling()), memory(), size()),
+        "startup": lambda: (startup(compiling()),),
     }
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 README = Path(__file__).with_name("README.md")
 
 _TABLE = re.compile(r"^### (.+)\n\n((?:\|.*\n)+)", re.MULTILINE)
-_RATIO = re.compile(r"times as long|times ours|over that|^ratio$")
+_RATIO = re.compile(r"times as long|times ours|over that")
 _TARGET = re.compile(r"(under|at most|at least|over) ([\d,.e+-]+)")
 
 
@@ -45,7 +45,7 @@ def against_others() -> Iterator[tuple[str, float]]:
             if "vibroimpact" not in what and "Times the engine's" in row:
                 yield f"{_short(heading)}: {what}", number(row["Times the engine's"])
             elif _RATIO.search(what):
-                name = before if what.startswith(("the same", "ratio")) else what
+                name = before if what.startswith("the same") else what
                 name = re.sub(r"[,:]? (times as long|over that).*|, (m?s|µs)$", "", name)
                 yield f"{_short(heading)}: {name}", number(row["Value"])
             before = what

@@ -39,7 +39,6 @@ WORDS: dict[str, Any] = {
     "frequency": None,
     "frequencies": REQUIRED,
     "vary": REQUIRED,
-    "frequency_span": None,
     "start": None,
     "starts": None,
     "period": None,
@@ -71,6 +70,8 @@ EXCEPTIONS: dict[tuple[str, str], Any] = {
     ("lyapunov_exponents", "vary"): None,
     # Stiffness and damping of the bumpers, in ranges that depend on the isolator.
     ("least_acceleration", "vary"): None,
+    # Only the frequency, over all of its values.
+    ("required_gap", "vary"): None,
     # The function cannot choose a bifurcation for the caller.
     ("bifurcation_curve", "start"): REQUIRED,
     # A count: of the parameter values at which simulations are started, or of local fits.

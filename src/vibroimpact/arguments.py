@@ -83,6 +83,19 @@ def check_texts(value: object, field: str, example: str) -> None:
             )
 
 
+def check_text(value: object, field: str) -> str:
+    """Return a string.
+
+    Raises
+    ------
+    InputError
+        If it is anything else.
+    """
+    if not isinstance(value, str):
+        raise InputError(f"{field}: {shown(value)}; pass a string")
+    return value
+
+
 def check_variables(value: Any, names: Collection[str], field: str, what: str) -> None:
     """Check that a value is a dataset with given variables. `what` describes accepted datasets.
 

@@ -182,3 +182,13 @@ def test_what_is_refused(words, named):
     with pytest.raises(vi.InputError) as caught:
         vi.basins(CODE, frequency=HERTZ, **words)
     assert str(caught.value).startswith(named)
+
+
+def test_only_a_spring_and_dashpot_keeps_a_deformation():
+    """Not a formula with a number of this name, whose face follows the mass."""
+    stop = vi.Law("k*d + damping*d**2*v", "2 mm", k=1e4, damping=1e3)
+    rig = vi.Rig(vi.Oscillator(1.0, vi.Isolator(100.0, 4.0), stop), 1.0, 1.5)
+    with pytest.raises(vi.InputError, match=r"^deformation\.right: 0.001 m, but the right"):
+        vi.basins(rig, *WINDOW, nodes=2, deformation={"right": "1 mm"})
+    with pytest.raises(vi.InputError, match=r"^deformation\.left: 0.001 m, but the left"):
+        vi.basins(rig, *WINDOW, nodes=2, deformation={"left": "1 mm"})

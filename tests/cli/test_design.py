@@ -146,7 +146,7 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
 @pytest.mark.full
 def test_sines_best_and_json(run, study):
     (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
-    words = ("--gap", "200mm", "--vary", "gap=0.1:0.4:3", "--from", "0.3Hz", "--to", "0.5Hz")
+    words = ("--gap", "200mm", "--vary", "gap=0.1:0.4:3", "--vary", "frequency=0.3Hz:0.5Hz")
     code, told, errors = run(
         "sines.toml", *words, "--best", "--limit", "penetration", "60mm", "--json"
     )
@@ -154,12 +154,12 @@ def test_sines_best_and_json(run, study):
     facts = json.loads(told)
     rig = _rig()
     rig = rig.replace(**{side: getattr(rig, side).replace(gap=0.2) for side in ("right", "left")})
-    need = vi.required_gap(vi.Rig(rig, "0.1 g"), frequency_span=(0.3, 0.5))
+    need = vi.required_gap(vi.Rig(rig, "0.1 g"), {"frequency": (0.3, 0.5)})
     assert facts["common_gap"] == float(need["common_gap"])
     assert facts["designs"] == 3
     assert facts["best"]["penetration"] <= 0.06
     limits = {"penetration": 0.06}
-    best = vi.least_acceleration(vi.Rig(rig, "0.1 g"), frequency_span=(0.3, 0.5), limits=limits)
+    best = vi.least_acceleration(vi.Rig(rig, "0.1 g"), {"frequency": (0.3, 0.5)}, limits=limits)
     assert facts["best"]["stops.damping"] == pytest.approx(float(best["stops.damping"]))
     assert facts["best"]["notes"] == best.attrs.get("notes", "").splitlines()
     for path in facts["files"].values():
@@ -198,7 +198,7 @@ def test_wrong_input_is_one_line_and_nothing_is_written(refused, study, words, l
         ("[design]\nrecords = ['no.csv']", "record: 'no.csv' cannot be read"),
         ("[design]\nrecords = ['a.csv']\nvary = { gap = 3 }", "design.vary.gap"),
         ("[design]\nfractile = 1.5", "design.fractile: 1.5"),
-        ("[excitation]\namplitude = 0.1\n[sweep]\nfrom = 0.2", "--to: missing"),
+        ("[excitation]\namplitude = 0.1\n[sweep]\nfrom = 0.2", "sweep.to: missing"),
         ("", "excitation.amplitude: missing"),
     ],
 )
@@ -233,3 +233,27 @@ def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study)
     assert facts["fractile"] == 0.5
     assert facts["common_gap"] == pytest.approx(1e-3 * middle)
     assert facts["common_gap_of_all_records"] == pytest.approx(1e-3 * more)
+
+
+def test_a_range_of_frequencies_has_no_values(run, study):
+    (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
+    code, told, errors = run("sines.toml", "--vary", "frequency=0.3Hz:0.5Hz:3")
+    assert (code, told) == (2, "")
+    assert "--vary: frequency: the sines cover the range, so it has no number of values" in errors
+    code, _, errors = run("sines.toml", "--from", "0.3Hz")
+    assert code == 2
+    assert "Unknown option: --from; write the range as --vary frequency=0.5Hz:4Hz" in errors
+
+
+def test_a_study_states_the_range_of_the_sines(run, study):
+    table = '[excitation]\namplitude = "0.1 g"\n[design]\nvary = { gap = "0.1:0.4:2"'
+    for name, more, options in (
+        ("in the study", ', frequency = "0.3 Hz:0.5 Hz"', ()),
+        ("beside those of the study", "", ("--vary", "frequency=0.3Hz:0.5Hz")),
+    ):
+        (study / "sines.toml").write_text(f"{STUDY}{table}{more} }}\n")
+        code, told, _ = run("sines.toml", *options, "--json")
+        facts = json.loads(told)
+        need = vi.required_gap(vi.Rig(_rig(), "0.1 g"), {"frequency": (0.3, 0.5)})
+        assert (code, facts["designs"]) == (0, 2), name
+        assert facts["common_gap"] == float(need["common_gap"]), name

@@ -57,6 +57,7 @@ def test_help_loads_nothing_that_computes():
     code = (
         "import sys; from vibroimpact.cli import main\n"
         "main(['--help']); main(['sweep', '--help'])\n"
+        "main(['help']); main(['help', 'rigs']); main(['help', 'sweep'])\n"
         "heavy = {'numpy', 'numba', 'xarray', 'matplotlib', 'pydantic', 'pint'}\n"
         "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
     )

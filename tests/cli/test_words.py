@@ -111,7 +111,7 @@ def test_an_unknown_command_lists_all_of_them(refused):
     line = refused("swep")
     assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
     listed = line.partition("? ")[2].partition(" are accepted")[0].split(", ")
-    assert len(listed) == 19
+    assert len(listed) == 20
     assert set(listed) == {name for name in _app() if not name.startswith("-")}
 
 
@@ -184,4 +184,4 @@ def test_titles_of_the_help_fit_into_80_columns(command, capsys, monkeypatch):
     titles = [line for line in capsys.readouterr().out.splitlines() if line.startswith("╭")]
     assert len(titles) > 3
     assert all(line.endswith((" ─╮", "──╮")) for line in titles)
-    assert any(line.startswith("╭─ Rig (default of each option: ") for line in titles)
+    assert any(line.startswith("╭─ Rig (details: vibroimpact help rigs) ") for line in titles)

@@ -21,8 +21,7 @@ def test_sines_on_one_mass_are_the_oscillators(kind: str) -> None:
     one, several = (
         vi.design_chart(
             alone(STOPS[kind], assembled=assembled),
-            {"gap": [0.004, 0.008]},
-            frequency_span=(0.6, 2.0),
+            {"gap": [0.004, 0.008], "frequency": (0.6, 2.0)},
             step=0.05,
         )
         for assembled in (False, True)
@@ -41,7 +40,8 @@ def test_sines_on_one_mass_are_the_oscillators(kind: str) -> None:
 
 def test_sines_against_a_fine_sweep() -> None:
     rig = vi.Rig(frame(), SINE)
-    data = vi.design_chart(rig, {"masses.roof": [200.0]}, frequency_span=(0.7, 1.6), step=0.05)
+    vary = {"masses.roof": [200.0], "frequency": (0.7, 1.6)}
+    data = vi.design_chart(rig, vary, step=0.05)
     moved = rig.system.replace(masses={**rig.system.masses, "roof": 200.0})
     fine = vi.sweep(vi.Rig(moved, SINE), np.linspace(0.7, 1.6, 901))
     for name in ("peak_displacement", "peak_acceleration"):
@@ -102,15 +102,18 @@ def test_limits_hold_for_each_part_and_the_front_is_that_of_the_largest() -> Non
 
 def test_wrong_input() -> None:
     for options, line in (
-        ({}, "^frequency_span: missing; an Assembly has several resonances"),
+        ({}, "^vary: 'frequency' is missing; an Assembly has several resonances"),
         (
             {"records": RECORDS, "limits": {"penetration": 0.1}},
             "^limits: 'penetration'; one of peak_displacement",
         ),
-        ({"frequency_span": (1, 2), "limits": {"peak_drift": 0.1}}, "^limits: 'peak_drift'; "),
+        (
+            {"vary": {**VARY, "frequency": (1, 2)}, "limits": {"peak_drift": 0.1}},
+            "^limits: 'peak_drift'; ",
+        ),
     ):
         with pytest.raises(vi.InputError, match=line):
-            vi.design_chart(vi.Rig(frame(), SINE), VARY, **options)
+            vi.design_chart(vi.Rig(frame(), SINE), **{"vary": VARY, **options})
     with pytest.raises(vi.InputError, match=r"^vary: 'stops.rigt.gap' is unknown"):
         vi.design_chart(frame(), {"stops.rigt.gap": [0.01]}, records=RECORDS)
 

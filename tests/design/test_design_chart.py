@@ -152,10 +152,10 @@ def test_designs_that_hit_nothing_count_once() -> None:
 
 def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
     vary = {"gap": ["100 mm", "200 mm"], "stops.damping": [1e6, 1e7]}
-    one = vi.design_chart(
-        vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=("0.2 Hz", "0.8 Hz"), threads=1
-    )
-    two = vi.design_chart(vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=(0.2, 0.8), threads=2)
+    rig = vi.Rig(BUILDING, "0.05 g")
+    one = vi.design_chart(rig, {**vary, "frequency": ("0.2 Hz", "0.8 Hz")}, threads=1)
+    two = vi.design_chart(rig, {"frequency": (0.2, 0.8), **vary}, threads=2)
+    assert one["pareto"].dims == ("gap", "stops.damping")
     assert one.identical(two)
     assert one["gap"].attrs["units"] == "m"
     assert json.loads(one.attrs["parameters"])["frequencies"] == [0.2, 0.8]
@@ -192,14 +192,21 @@ def test_what_has_no_bound_is_infinite() -> None:
             "shaking: scenarios are not defined for a Periodic",
         ),
         (
-            {"records": RECORDS, "frequency_span": (1, 2)},
-            "frequency_span: the shaking is a record",
+            {"records": RECORDS, "vary": {"gap": [0.1], "frequency": (1, 2)}},
+            "vary: 'frequency' depends on the shaking, which is a record; remove it",
         ),
         (
-            {"frequency_span": (2.0, 1.0)},
-            "frequency_span: the first value, 2 Hz, is not below the second, 1 Hz",
+            {"vary": {"gap": [0.1], "frequency": (2.0, 1.0)}},
+            r"vary\['frequency'\]: the first value, 2 Hz, is not below the second, 1 Hz",
         ),
-        ({"frequency_span": "1 Hz"}, "frequency_span: '1 Hz'; pass the lowest"),
+        (
+            {"vary": {"gap": [0.1], "frequency": "1 Hz"}},
+            r"vary\['frequency'\]: '1 Hz'; pass the lowest",
+        ),
+        (
+            {"vary": {"frequency": (1.0, 2.0)}},
+            "vary: no parameter; pass a dict of values by parameter, with at least one",
+        ),
         ({"records": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
         ({"step": 0.0}, "step: 0"),
         ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
@@ -219,7 +226,7 @@ def test_wrong_input(arguments: dict, line: str) -> None:
 def test_a_sweep_of_too_many_frequencies_is_refused_before_it_is_made() -> None:
     heavy = vi.Oscillator(1e30, vi.Isolator(1.0, 1.0), right=vi.Bumper(1e4, 1.0, 0.01))
     with pytest.raises(vi.InputError, match=r"step: .* gives .* frequencies .* at most 100000"):
-        vi.design_chart(vi.Rig(heavy, 0.5), {"gap": [0.01]}, frequency_span=(1.0, 2.0))
+        vi.design_chart(vi.Rig(heavy, 0.5), {"gap": [0.01], "frequency": (1.0, 2.0)})
 
 
 def test_limits_of_one_side_have_the_sign_of_the_displacement() -> None:

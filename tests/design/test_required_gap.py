@@ -69,12 +69,25 @@ def test_of_sines_by_bisection() -> None:
 def test_no_frequency_needs_more(amplitude: str, ratio: float, ends) -> None:
     """Against the excursions of free flight on a fine grid of the range."""
     rig = vi.Oscillator(2.0, vi.Isolator.from_period(2.0, 1.4, ratio))
-    found = vi.required_gap(vi.Rig(rig, amplitude), frequency_span=ends)
+    found = vi.required_gap(vi.Rig(rig, amplitude), ends and {"frequency": ends})
     grid = np.geomspace(*(ends or (0.02, 60.0)), 4001)
     sweep = vi.sweep(vi.Rig(rig, amplitude), grid[::4], "forward", max_cycles=1, window=1)
     most = 0.5 * float(sweep["free_displacement_excursion"].max())
     assert float(found["common_gap"]) >= most * (1.0 - 1e-12)
     assert float(found["common_gap"]) == pytest.approx(most, rel=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("vary", "line"),
+    [
+        ({"frequency": (2.0, 1.0)}, r"vary\['frequency'\]: the first value, 2 Hz, is not below"),
+        ({"gap": (1.0, 2.0)}, "vary: 'gap'; the gap is required for one rig, so only 'frequency'"),
+        (3, "vary: 3; pass a dict of ranges by parameter"),
+    ],
+)
+def test_only_the_frequency_is_varied(vary, line: str) -> None:
+    with pytest.raises(vi.InputError, match=f"^{line}"):
+        vi.required_gap(vi.Rig(vi.Oscillator(2.0, vi.Isolator(10.0, 1.0)), 1.0), vary)
 
 
 def test_of_curved_isolators_by_sweeps() -> None:

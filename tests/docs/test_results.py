@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
-
-from benchmarks import fixed, growth, results
-from vibroimpact.cli import _COMMANDS
+from benchmarks import results
 
 
 def test_a_cell_is_its_first_number():
@@ -33,12 +30,3 @@ def test_comparisons_and_targets_are_those_of_the_page(tmp_path, monkeypatch):
         "a run of 1 period by vi.simulate: heyoka, general": 9.3 / 287,
         "a run of 10 periods by vi.simulate: heyoka, general": 135 / 278,
     }
-
-
-def test_the_fixed_part_of_every_command_is_measured():
-    assert {*fixed.COMMANDS, "explore", "init"} == set(_COMMANDS)
-
-
-def test_the_exponent_of_a_power_is_found():
-    sizes = [10, 100, 1000]
-    assert growth.exponent(sizes, [3e-6 * n**1.5 for n in sizes]) == pytest.approx(1.5)

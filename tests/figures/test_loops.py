@@ -84,3 +84,20 @@ def test_a_figure():
     assert ax.get_xlabel() == "deformation (mm)"
     with pytest.raises(vi.InputError, match=r"^amplitude: 0 is not greater"):
         force_loop(vi.Isolator(1, 1), 0)
+
+
+def test_a_formula_with_a_gap_is_a_stop():
+    assert force_loop(vi.Law("k*d", k=1e4, gap=0.01), "2 mm").get_xlabel() == "deformation (mm)"
+    assert force_loop(vi.Law("k*u", k=1e4), "2 mm").get_xlabel() == "displacement $u$ (mm)"
+
+
+@pytest.mark.parametrize(
+    ("law", "line"),
+    [
+        (3, "law: 3 is not a law; pass an isolator or a stop"),
+        (vi.RigidStop(0.5, 0.01), "law: a rigid stop has no displacement"),
+    ],
+)
+def test_what_has_no_loop(law, line):
+    with pytest.raises(vi.InputError, match=f"^{line}"):
+        force_loop(law, "2 mm")

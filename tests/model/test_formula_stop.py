@@ -114,3 +114,29 @@ def test_a_formula_with_a_name_that_is_not_a_field_is_refused() -> None:
 
     with pytest.raises(vi.InputError, match="stifness"):
         Misspelt(stiffness=9.0, gap=0.1)
+
+
+def test_damping_of_a_contact_at_its_begin_is_that_of_the_formula() -> None:
+    """Whatever the fields are called."""
+
+    class Damped(FormulaStop):
+        kind: ClassVar[str] = "damped"
+        formula: ClassVar[str] = "stiffness*d + viscous*v + damping*d**2*v"
+
+        stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+        viscous: Annotated[float, Accepts(quantity("N s/m"), minimum=0.0)]
+        damping: Annotated[float, Accepts(quantity("N s/m^3"), minimum=0.0)]
+        gap: Annotated[float, Accepts(LENGTH)]
+
+    stops: list[tuple[Any, float]] = [
+        (Damped(4e4, 30.0, 5e3, 0.01), 30.0),
+        (read(), 0.0),
+        (Bumper(4e4, 50.0, 0.01), 50.0),
+        (vi.Law("max(k*d + c*v, 0)", 0.01, k=4e4, c=20.0), 20.0),
+        (vi.PowerBumper(4e4, 0.01, dissipation=1.0), 0.0),
+        (vi.JankowskiBumper(4e4, 0.01, 0.5, 1.0), 0.0),
+    ]
+    for stop, expected in stops:
+        assert stop.initial_damping == pytest.approx(expected), stop
+        assert stop.is_stop
+    assert not vi.Isolator(1.0, 1.0).is_stop

@@ -204,7 +204,7 @@ def test_designs_and_basins_vary_numbers_of_formulas() -> None:
         frequency="1.2 Hz",
     )
     assert stability["isolator.a"].attrs["units"] == "m"
-    chart = vi.design_chart(SOFT, {"isolator.a": ["4 cm", "6 cm"]}, frequency_span=(1.0, 1.4))
+    chart = vi.design_chart(SOFT, {"isolator.a": ["4 cm", "6 cm"], "frequency": (1.0, 1.4)})
     assert chart["isolator.a"].attrs["units"] == "m"
     figures.pareto_front(chart)
 

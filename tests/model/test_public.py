@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact import figures
 from vibroimpact.model.argument_types import PositiveInt, Share
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.written_units import unitless
 
-UNCHECKED = {"threads", "where", "height", "nodes"}
+UNCHECKED = {"threads", "where", "nodes"}
 """Read with another argument, or of two forms."""
 
 
@@ -98,3 +99,56 @@ def test_public_functions_check_their_numbers():
                 assert hasattr(function, "__wrapped__"), f"{name} is not @public"
                 found += 1
     assert found > 60
+
+
+def test_every_public_function_of_the_package_is_checked():
+    """Those that read no argument of a type: a folder, a table of versions, numbers of a rig."""
+    alone = {"classify_scenario", "from_dimensionless", "load", "read_measurement", "show_versions"}
+    found = {
+        name
+        for name in vi.__all__
+        if inspect.isfunction(getattr(vi, name)) and not hasattr(getattr(vi, name), "__wrapped__")
+    }
+    assert found <= alone | {"chain"}
+
+
+def test_every_figure_is_checked_or_finished():
+    found = {
+        name
+        for name in figures.__all__
+        if inspect.isfunction(getattr(figures, name))
+        and not hasattr(getattr(figures, name), "__wrapped__")
+    }
+    assert found == set()
+
+
+CASE = "B2-G1-A3"
+
+
+@pytest.mark.parametrize(
+    ("call", "line"),
+    [
+        (lambda: vi.required_gap(CASE, fractile="x"), "fractile: 'x'"),
+        (lambda: vi.required_gap(CASE, fractile=7), "fractile: 7"),
+        (lambda: vi.required_gap(CASE, tail="x"), "tail: 'x'"),
+        (lambda: vi.required_gap(CASE, tail=-1.0), "tail: -1"),
+        (lambda: vi.progress_bar(3), "what: 3; pass a string"),
+        (lambda: vi.progress_bar("done", every="x"), "every: 'x'"),
+        (lambda: vi.for_each_rig(3), "function: 3; pass a function of one rig"),
+        (lambda: vi.for_each_rig(len, threads="a"), "threads: 'a'; pass a whole number"),
+        (lambda: vi.explore(CASE, height=0), "height: 0; pass a whole number"),
+        (lambda: vi.modes(3), "rig: 3 is not a rig"),
+        (lambda: vi.to_dimensionless(3), "rig: 3 is not a rig"),
+        (lambda: vi.compare_fits(3), "fits: 3; pass a dict of results of identify"),
+        (lambda: vi.save(3, 4), "path: 4 is not a path"),
+        (lambda: figures.family_legend(3), "ax: 3; pass Axes of matplotlib"),
+        (lambda: figures.frequency_marks(3, {}), "axes: 3; pass Axes of matplotlib"),
+        (lambda: figures.feature_map(3, "extent"), "data: 3; pass the result of scenario_map"),
+        (lambda: figures.save_figure(3, 4), "path: 4 is not a path"),
+        (lambda: figures.save_animation(3, 4), "path: 4 is not a path"),
+        (lambda: figures.assembly_drawing(3), "assembly: 3 is not an Assembly"),
+    ],
+)
+def test_nonsense_is_refused_where_it_is_passed(call, line):
+    with pytest.raises(vi.InputError, match=f"^{line}"):
+        call()

@@ -189,7 +189,7 @@ def test_the_machine_of_the_page_stays_clear_of_its_stops() -> None:
     swept = vi.sweep(rig, np.arange(2.0, 8.0, 0.01))
     assert float(swept["peak_displacement"].max()) == pytest.approx(4.17e-3, abs=5e-6)
     assert not swept["impacts"].sel(stop="right").any()
-    sized = vi.required_gap(rig, frequency_span=(2.0, 8.0))
+    sized = vi.required_gap(rig, {"frequency": (2.0, 8.0)})
     assert float(sized["common_gap"]) == pytest.approx(
         0.4 / 800.0 / (2.0 * 0.06 * math.sqrt(1.0 - 0.06**2)), rel=1e-6
     )

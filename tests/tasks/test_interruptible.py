@@ -151,7 +151,7 @@ LONG = [
     "vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 300_000_000)",
     "vi.steady(vi.Rig(chaotic, shaken), max_cycles=300_000_000)",
     "vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=5_000_000)",
-    "vi.design_chart(vi.Rig(weak, 0.5), {'gap': [0.01]}, frequency_span=(1, 1.5), step=0.99)",
+    "vi.design_chart(vi.Rig(weak, 0.5), {'gap': [0.01], 'frequency': (1, 1.5)}, step=0.99)",
 ]
 """Calls that take hours."""
 

@@ -233,7 +233,8 @@ def _others(
     stated = {} if deformation is None else {"deformation": deformation}
     given = State.model_validate(stated).deformation
     for side, value in given.items():
-        if value and not hasattr(getattr(oscillator, side), "damping"):
+        stop = getattr(oscillator, side)
+        if value and (stop is None or stop.spring_and_dashpot is None):
             raise InputError(
                 f"deformation.{side}: {value:g} m, but the {side} side has no bumper that keeps a "
                 f"deformation; pass 0, or leave {side} out"

@@ -5,10 +5,11 @@ computing parts only when the command runs, so that ``vibroimpact --help`` respo
 
 A new command is a module with one function, and an entry of `_COMMANDS`. The decorator `calls` of
 `cli/function_options.py` names the library function, from which it copies help and defaults. The
-rig comes from `subject` of `cli/rig.py`, shared options from `cli/options.py`; `results` of
-`cli/results.py` writes and prints, and its `draw` saves a further figure. A command checks no
-values and composes no sentences: the library function checks, and `facts` composes.
-`tests/cli/test_function_options.py` lists the options whose default differs, with the reasons.
+rig comes from `subject` of `cli/rig.py`, shared options from `cli/options.py`, which a topic of
+`cli/topics.py` explains; `results` of `cli/results.py` writes and prints, and its `draw` saves a
+further figure. A command checks no values and composes no sentences: the library function checks,
+and `facts` composes. `tests/cli/test_function_options.py` lists the options whose default differs,
+with the reasons.
 """
 
 from __future__ import annotations
@@ -42,9 +43,8 @@ _HELP = """
 Compute the exact dynamics of oscillators that hit deformable stops.
 
 A rig is a mass on an isolator between two bumpers (deformable stops), shaken by its base. Most
-commands require a rig. Pass the code of a published laboratory test, such as B2-G1-A3 (bumper 2,
-gap 1, acceleration 3), or the path of a study file that describes your own rig. With options,
-you can change individual parameters of the rig. A value without a unit is in SI units.
+commands require a rig: the code of a published laboratory test, such as B2-G1-A3, or the path of a
+study file that describes your own rig (vibroimpact help rigs).
 
 For example:
 
@@ -71,6 +71,8 @@ For example:
 
 To see the options of a command, run: vibroimpact COMMAND --help
 
+What the commands share is explained by: vibroimpact help rigs, and vibroimpact help output
+
 Exit codes: 0 (completed), 1 (results could not be written), 2 (invalid input), 130 (interrupted),
 143 (terminated).
 """
@@ -95,6 +97,7 @@ _COMMANDS = (
     "identify",
     "map",
     "cache",
+    "help",
 )
 """Each command is a function in a module of the same name; that of `map` is scenario_map."""
 
@@ -174,6 +177,14 @@ def _run(words: list[str]) -> int:
             return _failed(f"the output cannot be written ({why})", 1)
         return _failed(f"{error.filename!r} cannot be used ({why})", 1)
     return result if isinstance(result, int) else 0
+
+
+def print_help(command: str) -> tuple[str, ...] | None:
+    """Print the help of a command; return the commands if it is none of them."""
+    if command not in _COMMANDS:
+        return _COMMANDS
+    _app([command])([command, "--help"])
+    return None
 
 
 def _failed(message: str, code: int) -> int:

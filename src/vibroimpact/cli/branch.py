@@ -89,8 +89,8 @@ def branch(
         that of the exciting force. Default: peak_displacement for a study file, and eta_d for a
         laboratory case.
     physical
-        Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
-        instead of eta_a. Default: yes for a study file, no for a laboratory case.
+        Draw displacements (mm) and accelerations (g) instead of the normalised excursions η_d and
+        η_a. Default: --normalised for a laboratory case.
     random
         Number of random initial states at each of 40 values of the parameter. Motions that start
         from these states help to find isolated branches. An isolated branch has stable orbits, but

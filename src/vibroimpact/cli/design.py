@@ -18,13 +18,13 @@ from vibroimpact.cli.records import (
     records_of_design,
     records_or_sines,
 )
-from vibroimpact.cli.vary import Vary, read_vary
+from vibroimpact.cli.vary import Vary, read_vary, split_sines
 
 _VALUES = 15
 """Default number of values of a parameter."""
 
 
-@calls("design_chart", "Design", limit="limits", start="frequency_span[0]", to="frequency_span[1]")
+@calls("design_chart", "Design", limit="limits")
 def design(
     rig: opt.RigName,
     /,
@@ -35,8 +35,6 @@ def design(
     fractile: opt.Text = None,
     scale: Scale = None,
     peak: Peak = None,
-    start: Annotated[opt.Text, Parameter(name="--from")] = None,
-    to: opt.Text = None,
     reading: RecordOptions = AS_STATED,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
@@ -78,7 +76,7 @@ def design(
         of --amplitude or, by default, the value in the laboratory case or study file.
     vary
         Parameter that is varied and its range, PATH=LOW:HIGH, such as gap=100mm:500mm. The option
-        may be used once or twice. The range has 15 evenly spaced values. To change the number or
+        may be repeated. The range has 15 evenly spaced values. To change the number or
         the spacing, write LOW:HIGH:NUMBER, LOW:HIGH:log or LOW:HIGH:log:NUMBER (log: logarithmic
         spacing). Examples of paths: gap, stops.stiffness (at constant damping),
         stiffness_at_restitution (stiffness of the bumpers at constant coefficient of restitution),
@@ -86,6 +84,9 @@ def design(
         the parameters in the study file (table [design]). If the file states none, the gap is
         varied. Its largest value is then slightly larger than the smallest gap at which the rig
         hits no stop. If all stops are linear bumpers, their stiffness is varied, too.
+        frequency=LOW:HIGH is the range of the sines, of which the largest response counts. Default:
+        from and to of the study file (table [sweep]), or a range around the primary resonance of
+        each design.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search does
         not change the gap of the rig.
@@ -100,13 +101,6 @@ def design(
         Fractile of the response over the records: the share of the records, from 0 to 1, whose
         response is below the reported value. With 1, the largest response is reported. Default: the
         value in the study file (table [design]), or 1.
-    start
-        Lowest frequency of the sines, such as 0.2Hz. Pass both --from and --to, or neither.
-        Default: the value in the study file (table [sweep]), or a frequency below the primary
-        resonance of each design.
-    to
-        Highest frequency of the sines, such as 2Hz. Default: the value in the study file (table
-        [sweep]), or a frequency above the primary resonance of each design.
     """
     from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.cli.frequency_grid import default_range, sine_span
@@ -126,30 +120,33 @@ def design(
         refuse(what, best=best)
     suite = records_or_sines(what, found, scale, peak)
     table = what.study.design if what.study else DesignTable()
-    ranges = {one.name: one.values(_VALUES) for one in read_vary(what, vary or table.vary or {})}
+    chosen_ranges, sines = split_sines(read_vary(what, vary))
+    of_study, sines_of_study = split_sines(read_vary(what, table.vary or {}))
+    ranges = {one.name: one.values(_VALUES) for one in chosen_ranges or of_study}
     limits: dict[str, Any] = {underscored(name): v for name, v in (table.limits or {}).items()}
     limits |= opt.by_name("--limit", limit)
     designed = what.system if suite else what.rig
-    span: Any = sine_span(what, start, to)
+    span: Any = sines or sines_of_study or sine_span(what)
     if several and span is None:
         span = default_range(what)[:2]
+    frequency = {} if span is None or (suite and not sines) else {"frequency": span}
     options: dict[str, Any] = {
         **opt.stated(fractile=table.fractile if fractile is None else fractile),
         "records": suite,
-        "frequency_span": None if suite else span,
         "threads": threads,
         "where": where,
     }
     least = None
     with results(what, output) as written:
         with progress_bar("computing designs") as progress:
-            gap = vi.required_gap(designed, **options)
+            gap = vi.required_gap(designed, frequency, **options)
             widest = gap["required_gap"].max() if several else gap["common_gap"]
             values = ranges or usual_ranges(what.system, float(widest))
             options |= {"limits": limits, "progress": progress}
-            data = vi.design_chart(designed, values, **options)
+            data = vi.design_chart(designed, {**values, **frequency}, **options)
             if best:
-                least = vi.least_acceleration(what.oscillator if suite else what.rig, **options)
+                rig_alone = what.oscillator if suite else what.rig
+                least = vi.least_acceleration(rig_alone, frequency or None, **options)
         written.files["data"] = vi.save(data, written.path("design", "nc"))
         written.files["table"] = vi.save(data, written.path("design", "csv"))
         if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:

@@ -100,10 +100,8 @@ def ensemble(
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step. Default:
         the list in the study file (table [sweep]), if it has one.
     physical
-        Draw the largest acceleration (g) and displacement (mm) instead of the normalised excursions
-        η_a (acceleration) and η_d (displacement). An excursion is the maximum minus the minimum. It
-        is normalised by the largest excursion of the same rig without stops. Default: --physical
-        for a study file, and --normalised for a laboratory case.
+        Draw accelerations (g) and displacements (mm) instead of the normalised excursions η_a and
+        η_d. Default: --normalised for a laboratory case.
     """
     import numpy as np
 

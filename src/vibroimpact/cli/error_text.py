@@ -26,6 +26,8 @@ _ELSEWHERE = {
     "--natural-frequency": ("--set", "write its reciprocal as --set isolator_period=2.5s"),
     "--stiffness": ("--set", "write it as --set isolator.stiffness=30kN/m"),
     "--damping": ("--set", 'write it as --set "isolator.damping=1 kN s/m"'),
+    "--from": ("--vary", "write the range as --vary frequency=0.5Hz:4Hz"),
+    "--to": ("--vary", "write the range as --vary frequency=0.5Hz:4Hz"),
     "--mass": ("--set", "write it as --set mass=550kg"),
 }
 """Options that users expect, the option of the command that replaces each, and what to do."""

@@ -40,10 +40,8 @@ def explore(
     Parameters
     ----------
     rig
-        The rig with which the page starts: a mass on an isolator between two bumpers (deformable
-        stops), with its shaking. Pass the code of a laboratory case, which is a rig of the
-        published tests, or the path of a study file (TOML), which describes your own rig. For the
-        parts of a code, see vibroimpact sweep. Default: B2-G1-A3.
+        The rig with which the page starts: code of a laboratory case, or path of a study file.
+        Details: vibroimpact help rigs. Default: B2-G1-A3.
     port
         Port of the server, a whole number. With 0, any free port is used.
     browser

@@ -169,22 +169,21 @@ def list_frequencies(
     return frequency_grid(*numbers)
 
 
-def sine_span(
-    what: Subject, start: str | None, to: str | None
-) -> tuple[float | str, float | str] | None:
-    """Return the frequency range of the options or of the study, or None if neither states it.
+def sine_span(what: Subject) -> tuple[float, float] | None:
+    """Return the range of frequencies in the study, or None if it states none.
 
     Raises
     ------
     InputError
-        If only one end of the range is stated.
+        If the study states only one end.
     """
-    table = what.sweep_table
-    low, high = table.start if start is None else start, table.to if to is None else to
+    low, high = what.sweep_table.start, what.sweep_table.to
     if low is None and high is None:
         return None
     if low is None or high is None:
-        which, other = ("--from", "--to") if low is None else ("--to", "--from")
-        given = f"{other} is given" if start or to else f"the study gives {other[2:]!r}"
-        raise InputError(f"{which}: missing, although {given}; pass {which} too")
+        missing, stated = ("from", "to") if low is None else ("to", "from")
+        raise InputError(
+            f"sweep.{missing}: missing, although the study gives {stated!r}; add it, or pass "
+            "--vary frequency=LOW:HIGH"
+        )
     return low, high

@@ -14,10 +14,10 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.scenarios.thresholds import Thresholds
 
-RIG = Group("Rig (default of each option: the value in the case or study file)", sort_key=2)
+RIG = Group("Rig (details: vibroimpact help rigs)", sort_key=2)
 COMPUTATION = Group("Computation", sort_key=3)
 THRESHOLDS = Group("Thresholds", sort_key=3)
-OUTPUT = Group("Output", sort_key=4)
+OUTPUT = Group("Output (details: vibroimpact help output)", sort_key=4)
 
 if TYPE_CHECKING:
     FileName: TypeAlias = str
@@ -30,14 +30,8 @@ RigName: TypeAlias = Annotated[
     Parameter(
         name="CASE|STUDY.toml",
         help=(
-            "The rig: a mass on an isolator between two bumpers (deformable stops), with its "
-            "shaking. Pass the code of a laboratory case, which is a rig of the published tests, "
-            "or the path of a study file (TOML), which describes your own rig. A code is "
-            "BUMPER-GAP-ACCELERATION, such as B2-G1-A3, B3-10mm-A3 or 510kN/m-G1-0.05g. BUMPER is "
-            "B1, B2, B3 or B4 (100, 510, 680 or 2300 kN/m), or a stiffness. GAP is the sum of the "
-            "two equal gaps: G1, G2, G3 or G4 (15, 20, 25 or 30 mm), or a length. Ginf means no "
-            "bumpers. ACCELERATION is the peak acceleration of the base: A1, A2 or A3 (0.03, 0.04 "
-            "or 0.05 g), or a value between 0.03g and 0.05g."
+            "Code of a laboratory case, such as B2-G1-A3, or path of a study file. Details: "
+            "vibroimpact help rigs."
         ),
     ),
 ]
@@ -101,7 +95,7 @@ Json: TypeAlias = Annotated[
         group=OUTPUT,
         negative="",
         show_default=False,
-        help="Print the summary as JSON, for other programs, and nothing else.",
+        help="Print the summary as JSON, and nothing else.",
     ),
 ]
 
@@ -153,31 +147,21 @@ def stated(**options: Any) -> dict[str, Any]:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class RigOptions:
-    """Options that replace values of the laboratory case or of the study."""
+    """Options that replace values of the case or study file; `topics.py` explains them."""
 
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case. table (for all cases): the values in Table 1 and Section
-    7 of the paper by Stefani, De Angelis and Andreaus. identified (only for B2-G1-A3 and B2-G2-A2):
-    the values that Section 5 of this paper identifies from single tests. refined (for all cases):
-    the same as table, but with an isolator that softens as the displacement grows. Default: the set
-    in the study file. If it names none, the default is the set table."""
+    """Parameter set of a laboratory case. Default: that of the study file, or table."""
     amplitude: _OfRig = None
-    """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
-    or 0.49m/s^2), peak displacement of the base (5mm), peak force on the mass (120N), or
-    rotating unbalance (0.4kg*m). With 0, nothing shakes the rig; only vibroimpact simulate accepts
-    it."""
+    """Amplitude of the shaking, such as 0.05g, 5mm or 120N."""
     gap: _OfRig = None
-    """Gap on each side, such as 7.5mm. It is half of GAP, the total gap in a case code."""
+    """Gap on each side, such as 7.5mm."""
     values: Annotated[
-        tuple[str, ...], Parameter(name="--set", group=RIG, negative="", consume_multiple=False)
+        tuple[str, ...],
+        Parameter(name="--set", group=RIG, negative="", consume_multiple=False, show_default=False),
     ] = ()
-    """Another value of the rig, PATH=VALUE, such as mass=550kg, isolator.stiffness=30kN/m,
-    stops.stiffness=1MN/m (both stops), right.gap=9mm, isolator_period=2.5s or damping_ratio=0.15;
-    of several masses, such as stops.pounding.gap=1cm or masses.roof=200t.
-    The option may be repeated. left=none removes the left stop, and isolator=none the isolator.
-    An unknown path lists those of the rig."""
+    """Another value, PATH=VALUE, such as mass=550kg or left=none. May be repeated."""
 
 
 _Threshold: TypeAlias = Annotated[
@@ -218,21 +202,18 @@ class ThresholdOptions:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class OutputOptions:
-    """Options for the files, and for the printed summary."""
+    """Options for files and the printed summary; `topics.py` explains them."""
 
     output: OutputFolder = "out"
-    """Folder for the written files (default: out). A missing folder is created."""
+    """Folder for the written files (default: out)."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Text with which all file names begin (NAME above); titles keep the name of the rig. Default:
-    the name of the rig. For the command vibroimpact record, the default is the name of the
-    record."""
+    """Beginning of the file names (NAME above). Default: the name of the rig or record."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )
-    """File format of the figure (default: png)."""
+    """File format of the figures (default: png)."""
     figure_width: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Width of the figure for print, such as 86mm for one column of a journal. Its text has a size
-    of 8 points, and pixels are as fine as 600 per inch. Default: a size for the screen."""
+    """Width of the figures for print, such as 86mm. Default: a size for the screen."""
     json: Json = False
 
 

@@ -81,12 +81,8 @@ def sweep(
         approaching a periodic orbit by then, for example with light damping, the limit is increased
         up to 50-fold. Default: the number in the study file (table [sweep]), or 2000.
     physical
-        Draw the largest acceleration (g), displacement (mm) and contact force instead of the
-        normalised excursions η_a (acceleration) and η_d (displacement). An excursion is the maximum
-        minus the minimum. It is normalised by the largest excursion of the same rig without stops.
-        Default: --physical for a study file, and --normalised for a laboratory case. If the motion
-        without stops is unbounded, there are no normalised excursions. The figure then shows the
-        largest values even with --normalised.
+        Draw accelerations (g), displacements (mm) and contact forces instead of the normalised
+        excursions η_a and η_d. Default: --normalised for a laboratory case.
     """
     from rich.console import Group
 

@@ -192,6 +192,28 @@ def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> Var
     return found[0]
 
 
+def split_sines(
+    varied: Sequence[Varied],
+) -> tuple[list[Varied], tuple[float, float] | None]:
+    """Return the varied parameters without the frequency, and the range of the frequency or None.
+
+    Raises
+    ------
+    InputError
+        If the range of the frequency has a number of values or a spacing.
+    """
+    others = [one for one in varied if one.name != "frequency"]
+    for one in varied:
+        if one.name == "frequency":
+            if one.number is not None or one.logarithmic:
+                raise InputError(
+                    "--vary: frequency: the sines cover the range, so it has no number of values "
+                    "and no spacing; pass LOW:HIGH"
+                )
+            return others, one.span
+    return others, None
+
+
 def check_continuous(one: Varied) -> None:
     """Refuse a number of values, and a spacing, of a parameter along which a curve is followed."""
     if one.number is not None or one.logarithmic:

@@ -15,6 +15,8 @@ from vibroimpact._version import __version__
 from vibroimpact.arguments import check_mapping, check_path, check_variables
 from vibroimpact.datasets.tables import as_text
 from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.model.argument_types import File
+from vibroimpact.model.public import public
 
 _SEAL = b"\nvibroimpact sha256 "
 """Mark before the digest at the end of a file. HDF5 knows the length of its data and ignores
@@ -56,7 +58,8 @@ def write_whole(path: Path | str, content: bytes | str) -> Path:
     return target
 
 
-def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Path:
+@public
+def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: File) -> Path:
     """Write one dataset, or several named datasets, to a file.
 
     Parameters
@@ -75,7 +78,7 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
         If the file name has another ending, or if the file cannot be written. In both cases an
         existing file is left unchanged.
     """
-    ending = check_path(path, "path").suffix.lower()
+    ending = Path(path).suffix.lower()
     if ending not in (".nc", ".csv"):
         wrong = f"has the ending {ending!r}" if ending else "has no ending"
         raise InputError(

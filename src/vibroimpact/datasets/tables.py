@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+import pandas as pd
 import xarray as xr
 
 from vibroimpact.errors import InputError, shown
-
-if TYPE_CHECKING:
-    import pandas as pd
+from vibroimpact.model.public import public
 
 _COLUMNS = {
     "stop",
@@ -24,6 +21,7 @@ _COLUMNS = {
 ``peak_force.right``."""
 
 
+@public
 def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     """Convert a dataset to a tidy table with one row per frequency, sample, orbit or contact.
 

@@ -17,6 +17,7 @@ from vibroimpact.design.design_shaking import (
     AnyRecords,
     ByRecords,
     design_system,
+    split_frequency,
 )
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.pareto import non_dominated
@@ -24,7 +25,7 @@ from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.model import Assembly, Oscillator
-from vibroimpact.model.argument_types import Share
+from vibroimpact.model.argument_types import Fractile, Share, Tail
 from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
@@ -49,10 +50,9 @@ def design_chart(
     *,
     records: AnyRecords | None = None,
     limits: Mapping[str, float | str] | None = None,
-    fractile: float = 1.0,
-    frequency_span: tuple[float | str, float | str] | None = None,
+    fractile: Fractile = 1.0,
     step: Share = STEP,
-    tail: float | str | None = None,
+    tail: Tail | None = None,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -73,7 +73,10 @@ def design_chart(
         ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
         this parameter. If ``"stops.stiffness"`` is varied, the damping of the bumpers stays
         constant. If ``"stiffness_at_restitution"`` is varied, the damping changes so that the
-        coefficient of restitution stays constant.
+        coefficient of restitution stays constant. ``"frequency"`` is the lowest and the highest
+        frequency (Hz) of the sine, ``(low, high)``, and not a dim of the result. Its default is a
+        range around the primary resonance of each design. An assembly, which has several
+        resonances, has no default.
     records
         One record, or several as a list or as a mapping from names to records. They replace the
         shaking of the rig, and the rig may then be an `Oscillator` or an `Assembly` alone. The
@@ -92,9 +95,6 @@ def design_chart(
         Share of the records whose response is below the reported value, from 0 to 1. 1 gives the
         largest response of all records. The fractile is computed for each quantity separately, by
         interpolation between the records. These fractiles are compared with the limits.
-    frequency_span
-        Lowest and highest forcing frequency (Hz). Default: a range around the primary resonance of
-        each design. An assembly, which has several resonances, has no default range.
     step
         Frequency step of the sweeps, as a share of the lowest natural frequency. The step is
         smaller if the damping is light. Near the largest responses the steps are 64 times as fine.
@@ -134,9 +134,8 @@ def design_chart(
     InputError
         If a value is invalid.
     """
-    system, what = design_system(
-        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
-    )
+    vary, frequencies = split_frequency(vary)
+    system, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
     plan = runs(system, vary, least=1, any_masses=True)
     workers = workers_for(threads, where)
     rigs = [plan.system(at) for at in np.ndindex(*plan.shape)]

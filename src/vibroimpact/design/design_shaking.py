@@ -18,9 +18,9 @@ from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Oscillator, Record, to_si
-from vibroimpact.model.argument_types import MOST_TAIL
-from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
+from vibroimpact.model import Assembly, Oscillator, Record
+from vibroimpact.model.parameter_ranges import field_of
+from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import as_rig, as_rig_of_any_masses, one_system
 from vibroimpact.model.rig import System, with_stated_units
@@ -204,13 +204,15 @@ def _penetration(rigs: Sequence[System], right: _Array, left: _Array) -> dict[st
 def design_rig(
     rig: Any,
     records: Any,
+    frequencies: object,
     *,
     fractile: float,
-    frequency_span: tuple[float | str, float | str] | None,
     step: float,
-    tail: float | str | None,
+    tail: Any,
 ) -> tuple[Oscillator, BySines | ByRecords]:
     """Read the oscillator of a design, and what it is designed for.
+
+    ``frequencies`` is the range of the sines, as it was passed.
 
     Raises
     ------
@@ -218,9 +220,7 @@ def design_rig(
         If it cannot be used.
     """
     as_rig(rig, oscillator_alone=records is not None)
-    found, what = design_system(
-        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
-    )
+    found, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
     assert isinstance(found, Oscillator)
     return found, what
 
@@ -228,11 +228,11 @@ def design_rig(
 def design_system(
     rig: Any,
     records: Any,
+    frequencies: object,
     *,
     fractile: float,
-    frequency_span: tuple[float | str, float | str] | None,
     step: float,
-    tail: float | str | None,
+    tail: Any,
 ) -> tuple[System, BySines | ByRecords]:
     """Do what `design_rig` does, also for an assembly."""
     found = as_rig_of_any_masses(rig) if records is None else one_system(rig)
@@ -241,41 +241,28 @@ def design_system(
     if records is None and isinstance(found.shaking, Record):
         records = found.shaking
     if records is not None:
-        by_records = read_records(records, fractile, frequency_span, tail)
+        if frequencies is not None:
+            raise InputError(
+                "vary: 'frequency' depends on the shaking, which is a record; remove it"
+            )
+        by_records = ByRecords(suite(records), fractile, tail)
         return with_stated_units(found.system, in_words(by_records.records)), by_records
     shaken = found if isinstance(found.system, Assembly) else one_sine(found)
-    low, high = read_frequencies(frequency_span)
+    low, high = read_frequencies(frequencies)
     return found.system, BySines(Sines(shaken.sine, low, high, step))
 
 
-def read_records(
-    records: Any,
-    fractile: float,
-    frequency_span: tuple[float | str, float | str] | None,
-    tail: float | str | None,
-) -> ByRecords:
-    """Read the records that a rig is designed for.
+def split_frequency(vary: object) -> tuple[Any, object]:
+    """Return what is varied without the frequency, and the range of the frequency or None.
 
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
+    What is not a mapping has no frequency; it is refused where it is read.
     """
-    if frequency_span is not None:
-        raise InputError(
-            "frequency_span: the shaking is a record, which has no forcing frequency; remove "
-            "frequency_span"
-        )
-    return ByRecords(
-        suite(records),
-        to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
-        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
-    )
+    if not isinstance(vary, Mapping) or "frequency" not in vary:
+        return vary, None
+    return {name: one for name, one in vary.items() if name != "frequency"}, vary["frequency"]
 
 
-def read_frequencies(
-    frequency_span: tuple[float | str, float | str] | None,
-) -> tuple[float, float] | tuple[None, None]:
+def read_frequencies(frequencies: object) -> tuple[float, float] | tuple[None, None]:
     """Read the lowest and the highest frequency (Hz); None for 0 and infinity.
 
     Raises
@@ -283,6 +270,6 @@ def read_frequencies(
     InputError
         If they are no such pair.
     """
-    if frequency_span is None:
+    if frequencies is None:
         return None, None
-    return read_span(frequency_span, FREQUENCY, "frequency_span", "frequency", above=0.0)
+    return read_span(frequencies, FREQUENCY, field_of("frequency"), "frequency", above=0.0)

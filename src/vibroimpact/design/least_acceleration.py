@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
+from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig, split_frequency
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
-from vibroimpact.model.argument_types import NonNegativeInt, Share
+from vibroimpact.model.argument_types import Fractile, NonNegativeInt, Share, Tail
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
 from vibroimpact.model.parameters import in_units, parameter, set_values
 from vibroimpact.model.public import public
@@ -118,10 +118,9 @@ def least_acceleration(
     records: AnyRecords | None = None,
     gap: float | str | None = None,
     limits: Mapping[str, float | str] | None = None,
-    fractile: float = 1.0,
-    frequency_span: tuple[float | str, float | str] | None = None,
+    fractile: Fractile = 1.0,
     step: Share = STEP,
-    tail: float | str | None = None,
+    tail: Tail | None = None,
     seed: NonNegativeInt = 0,
     threads: int | None = None,
     where: Any = THREADS,
@@ -138,11 +137,12 @@ def least_acceleration(
 
     Parameters
     ----------
-    rig, records, fractile, frequency_span, step, tail, threads, where
+    rig, records, fractile, step, tail, threads, where
         As in `design_chart`.
     vary
         Parameters of the search, as a mapping from names to the lowest and the highest value. The
-        names are those of `design_chart`. Default: the stiffness of the bumpers from 0.1 to 100
+        names are those of `design_chart`; ``"frequency"`` is the range of the sine, and is not
+        searched. Default: the stiffness of the bumpers from 0.1 to 100
         times the stiffness of the isolator, and the damping of the bumpers from 0.01 to 10 times
         the critical damping of the mass on the isolator.
     gap
@@ -178,14 +178,15 @@ def least_acceleration(
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
+    vary, frequencies = split_frequency(vary)
     oscillator, what = design_rig(
-        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+        rig, records, frequencies, fractile=fractile, step=step, tail=tail
     )
     if gap is not None:
         oscillator = with_stated_units(oscillator, {"gap": gap})
         size = to_si(gap, LENGTH, "gap", minimum=0.0)
         oscillator = parameter("gap", oscillator, "gap").vary(Rig(oscillator), size).oscillator
-    space = _space(oscillator, vary)
+    space = _space(oscillator, vary or None if frequencies else vary)
     oscillator = space.rig
     most = limits_of(limits)
     known = _Known(what, space, workers_for(threads, where), progress)

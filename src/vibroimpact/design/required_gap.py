@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_mapping
 from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
@@ -15,13 +16,15 @@ from vibroimpact.design.design_shaking import (
     ByRecords,
     BySines,
     design_system,
+    split_frequency,
 )
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, equilibrium
-from vibroimpact.model.argument_types import Share
+from vibroimpact.model.argument_types import Fractile, Share, Tail
+from vibroimpact.model.parameter_ranges import Ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig
@@ -33,12 +36,12 @@ from vibroimpact.tasks.threads import Progress, Workers
 @public
 def required_gap(
     rig: RigOrSystem,
+    vary: Ranges | None = None,
     *,
     records: AnyRecords | None = None,
-    fractile: float = 1.0,
-    frequency_span: tuple[float | str, float | str] | None = None,
+    fractile: Fractile = 1.0,
     step: Share = STEP,
-    tail: float | str | None = None,
+    tail: Tail | None = None,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -50,13 +53,17 @@ def required_gap(
 
     For records the gap is exact for a motion that starts at rest. For sines the gap holds for the
     steady motion; a transient may reach farther. If the isolator is linear, the frequency of the
-    largest displacement is known in closed form, and the gap is exact for all frequencies of
-    ``frequency_span``, or for all frequencies if there is no span. For other isolators the gap is
-    computed from sweeps up and down.
+    largest displacement is known in closed form, and the gap is exact for all frequencies of the
+    range, or for all frequencies if no range is passed. For other isolators the gap is computed
+    from sweeps up and down.
 
     Parameters
     ----------
-    rig, records, fractile, frequency_span, step, tail, threads, where, progress
+    vary
+        Range of the frequency (Hz) of a sine, as ``{"frequency": (low, high)}``. Default: all
+        frequencies; for isolators that are not linear, a range around the primary resonance. An
+        assembly has no default.
+    rig, records, fractile, step, tail, threads, where, progress
         As in `design_chart`. The fractile over the records is computed for the larger side of each
         record, and also for each side separately. Therefore the common gap may exceed both
         one-sided gaps.
@@ -80,8 +87,15 @@ def required_gap(
         was given up.
     """
     workers = workers_for(threads, where)
+    others, frequencies = split_frequency({} if vary is None else vary)
+    check_mapping(others, "vary", 'a dict of ranges by parameter, such as {"frequency": (1, 3)}')
+    if others:
+        raise InputError(
+            f"vary: {', '.join(map(shown, others))}; the gap is required for one rig, so only "
+            "'frequency' is varied; remove other parameters"
+        )
     oscillator, what = design_system(
-        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+        rig, records, frequencies, fractile=fractile, step=step, tail=tail
     )
     if isinstance(oscillator, Assembly):
         return _of_assembly(oscillator, what, workers, progress)

@@ -144,8 +144,8 @@ class Sines(NamedTuple):
         if isinstance(rig, Assembly):
             if self.low is None or self.high is None:
                 raise InputError(
-                    "frequency_span: missing; an Assembly has several resonances, so pass the "
-                    "lowest and the highest forcing frequency"
+                    "vary: 'frequency' is missing; an Assembly has several resonances, so pass its "
+                    "lowest and its highest value as (low, high)"
                 )
             low, high, natural = self.low, self.high, natural or self.low
             ratios = rig.damping_ratios

@@ -8,12 +8,14 @@ import xarray as xr
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Repeated
 from vibroimpact.model.assembly.names import check_known
+from vibroimpact.model.public import public
 from vibroimpact.response.motion_phases import recorded
 
 _GRID = 1e-6
 """Share of a step by which a sample may lie off the grid."""
 
 
+@public
 def floor_record(motion: xr.Dataset, mass: str | None = None) -> Record:
     """Compute the absolute acceleration of the mass as a record, for a floor spectrum.
 

@@ -19,6 +19,7 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown, warn_of_result
 from vibroimpact.model import to_si
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -36,6 +37,7 @@ _VAST = 1e300
 """Finite stand-in for infinity, for the interpolation of quantiles."""
 
 
+@public
 def fractiles(
     demands: xr.Dataset,
     quantity: str = "peak_displacement",
@@ -123,6 +125,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     return values
 
 
+@public
 def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
     """Compute the share of the records whose peak exceeds a limit, at each scale.
 

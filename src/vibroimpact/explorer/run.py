@@ -9,11 +9,15 @@ import io
 import secrets
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.state import PageState, begin
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.argument_types import PositiveInt
+from vibroimpact.model.laboratory import Case
+from vibroimpact.model.public import public
+from vibroimpact.model.rig import Rig
 
 LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
@@ -130,7 +134,8 @@ def _picture(state: PageState) -> str:
     return f'<img src="data:image/png;base64,{data}" alt="Resonance curves" style="width: 100%">'
 
 
-def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
+@public
+def explore(rig: Rig | Case | str | Path = FIRST, *, height: PositiveInt = 720) -> Explored:
     """Show the interactive explorer of a rig in a notebook.
 
     In the explorer you change a parameter of the rig and see how the resonance curves change.
@@ -159,10 +164,6 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     """
     from vibroimpact.explorer.share import address
 
-    if isinstance(height, bool) or not isinstance(height, int) or height < 1:
-        raise InputError(
-            f"height: {height!r} is not valid; pass a whole number of pixels, such as 700"
-        )
     try:
         state = preset(rig) if isinstance(rig, str) else begin(rig)
     except InputError:

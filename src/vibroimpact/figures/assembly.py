@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties
@@ -13,8 +13,9 @@ from matplotlib.text import Text
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.model import Assembly
+from vibroimpact.model.argument_types import String
 from vibroimpact.model.assembly.drawing import Drawing, drawing
-from vibroimpact.model.written_units import written_for
+from vibroimpact.model.public import public
 
 _INCH = 72.0
 _LEGIBLE = 6.0
@@ -44,8 +45,18 @@ BOX = "#e8edf5"
 """Colour of a mass."""
 
 
+def _check_assembly(value: object, field: str) -> Assembly:
+    if not isinstance(value, Assembly):
+        raise InputError(f"{field}: {shown(value)} is not an Assembly; pass an Assembly")
+    return value
+
+
+@public
 def assembly_drawing(
-    assembly: Assembly, ax: Axes | None = None, *, title: str | None = None
+    assembly: Annotated[Assembly, _check_assembly],
+    ax: Axes | None = None,
+    *,
+    title: String | None = None,
 ) -> Axes:
     """Draw the masses of an assembly, its links, and its stops with their gaps to scale.
 
@@ -67,10 +78,7 @@ def assembly_drawing(
     InputError
         If ``assembly`` is not an `Assembly`.
     """
-    if not isinstance(assembly, Assembly):
-        raise InputError(f"assembly: {shown(assembly)} is not an Assembly; pass an Assembly")
-    with written_for(assembly):
-        made = drawing(assembly)
+    made = drawing(assembly)
     ax = axes_or_new(ax, (made.width / _INCH + 0.2, made.height / _INCH + 0.2), title)
     # The drawing shrinks with a narrow figure, and its words with it as far as they can be read.
     figure = ax.get_figure(root=True)

@@ -22,10 +22,12 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly import PENS, draw
 from vibroimpact.figures.assembly_motion import History, history
 from vibroimpact.model import Assembly
+from vibroimpact.model.argument_types import File, Seconds, String
 from vibroimpact.model.assembly.drawing import Drawing, Moved, column_width, drawing, gap_scale
 from vibroimpact.model.names import literal
+from vibroimpact.model.public import public
 from vibroimpact.model.units import plain
-from vibroimpact.model.written_units import unit, written_for
+from vibroimpact.model.written_units import unit
 
 _Array = NDArray[np.float64]
 
@@ -42,14 +44,15 @@ _FARTHEST = 0.32
 """Largest displacement on the screen, relative to the distance between two bodies."""
 
 
+@public
 def save_animation(
     motion: xr.Dataset,
-    path: Path | str,
+    path: File,
     *,
-    duration: float = 10.0,
-    start: float | None = None,
-    end: float | None = None,
-    title: str | None = None,
+    duration: Seconds = 10.0,
+    start: Seconds | None = None,
+    end: Seconds | None = None,
+    title: String | None = None,
 ) -> Path:
     """Write an animation of the masses of an assembly: a GIF file, or an HTML page.
 
@@ -87,7 +90,7 @@ def save_animation(
     file = Path(path)
     if file.suffix.lower() not in _ENDINGS:
         raise InputError(
-            f"path: {str(path)!r} does not end in {' or '.join(_ENDINGS)}; use one of these "
+            f"path: {str(file)!r} does not end in {' or '.join(_ENDINGS)}; use one of these "
             "endings, which select the format"
         )
     if not 0.0 < duration <= _LONGEST:
@@ -95,23 +98,22 @@ def save_animation(
             f"duration: {duration!r}; pass a duration greater than 0 and at most {_LONGEST:g} s"
         )
     time = motion["time"].values
-    first = float(time[0]) if start is None else float(start)
-    last = float(time[-1]) if end is None else float(end)
+    first = float(time[0]) if start is None else start
+    last = float(time[-1]) if end is None else end
     if not time[0] <= first < last <= time[-1]:
         raise InputError(
             f"start, end: {first:g} s and {last:g} s; pass times from {time[0]:g} s to "
             f"{time[-1]:g} s, the earlier one first"
         )
-    with written_for(motion):
-        moving = _Moving(shown)
-        speed = f"speed × {plain((last - first) / duration, 2)}"
-        if file.suffix.lower() == ".gif":
-            at = np.linspace(first, last, max(2, round(_RATE * duration)))
-            return write_whole(file, _gif(moving, at, title, speed))
-        kept = time[(time >= first) & (time <= last)]
-        most = round(_HTML_RATE * duration)
-        at = kept if 1 < len(kept) <= most else np.linspace(first, last, max(2, most))
-        return write_whole(file, _page(moving, at, duration, title, speed).encode("utf-8"))
+    moving = _Moving(shown)
+    speed = f"speed × {plain((last - first) / duration, 2)}"
+    if file.suffix.lower() == ".gif":
+        at = np.linspace(first, last, max(2, round(_RATE * duration)))
+        return write_whole(file, _gif(moving, at, title, speed))
+    kept = time[(time >= first) & (time <= last)]
+    most = round(_HTML_RATE * duration)
+    at = kept if 1 < len(kept) <= most else np.linspace(first, last, max(2, most))
+    return write_whole(file, _page(moving, at, duration, title, speed).encode("utf-8"))
 
 
 class _Moving:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, get_args
+from typing import Annotated, Literal, get_args
 
 import numpy as np
 import xarray as xr
@@ -17,10 +17,11 @@ from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new, check_axes
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import FREE, SWEEPS, Look, fit_x_axis, sweeps_of
 from vibroimpact.model.names import literal
+from vibroimpact.model.public import public
 from vibroimpact.response.resonance import features
 
 Quantity = Literal["eta_a", "eta_d", "acceleration_excursion", "displacement_excursion"]
@@ -140,7 +141,8 @@ def resonance_family(
     return ax
 
 
-def family_legend(ax: Axes) -> list[Artist]:
+@public
+def family_legend(ax: Annotated[Axes, check_axes]) -> list[Artist]:
     """Return the legend entries of a `resonance_family`: the rigs in order, then the directions."""
     rigs = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
     dashes = [

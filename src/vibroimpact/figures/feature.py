@@ -8,17 +8,21 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 
+from vibroimpact.arguments import check_variables
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
+from vibroimpact.model.argument_types import String
+from vibroimpact.model.public import public
 
 _MOST = 12
 """Largest count up to which each count has its own colour."""
 
 
+@public
 def feature_map(
-    data: xr.Dataset, name: str, ax: Axes | None = None, *, title: str | None = None
+    data: xr.Dataset, name: String, ax: Axes | None = None, *, title: String | None = None
 ) -> Axes:
     """Draw one feature of a map of scenarios.
 
@@ -40,6 +44,7 @@ def feature_map(
     InputError
         If the dataset is not a map, or if it does not contain the feature.
     """
+    check_variables(data, (), "data", "the result of scenario_map")
     if "scenario" not in data or data["scenario"].ndim != 2:
         raise InputError("data: this is not a map of scenarios; pass the result of scenario_map")
     known = [str(n) for n in data.data_vars if n not in ("scenario", "level")]

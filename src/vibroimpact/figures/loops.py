@@ -15,7 +15,10 @@ from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import AnyIsolator, Stop, to_si
+from vibroimpact.model.argument_types import String
+from vibroimpact.model.built_in_laws import Deformable
 from vibroimpact.model.oscillator import Units
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.written_units import NONE, SI
@@ -26,13 +29,14 @@ _SAMPLES = 2000
 """Number of points in one cycle."""
 
 
+@public
 def force_loop(
-    law: AnyIsolator | Stop,
+    law: Deformable,
     amplitude: float | str,
     frequency: float | str = 0.0,
     ax: Axes | None = None,
     *,
-    title: str | None = None,
+    title: String | None = None,
     units: Units = SI,
 ) -> Axes:
     """Draw the force of an isolator or of a stop over its displacement.
@@ -65,8 +69,6 @@ def force_loop(
         If the law, the amplitude or the frequency is invalid, or if the amplitude has a unit
         although ``units`` is ``"none"``.
     """
-    if units not in (SI, NONE):
-        raise InputError(f"units: {shown(units)} is unknown; 'SI' or 'none' is accepted")
     if units == NONE and has_unit(amplitude):
         raise InputError(
             f'amplitude: {shown(amplitude)} has a unit, but units is "none"; pass a number without '
@@ -75,7 +77,7 @@ def force_loop(
     size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
     omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)
     ax = axes_or_new(ax, (5.2, 4.0), title)
-    if getattr(law, "gap", None) is not None:
+    if law.is_stop:
         u, v, _ = _sine(size, omega, 0.5)
         force, what = cast("Stop", law).force(np.maximum(u, 0.0), v), "deformation (mm)"
     else:

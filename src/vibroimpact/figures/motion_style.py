@@ -160,6 +160,19 @@ def _seen(motion: xr.Dataset) -> bool:
     return is_measured(motion) and "event_time" not in motion
 
 
+def check_axes(ax: object, field: str) -> Axes:
+    """Return axes.
+
+    Raises
+    ------
+    InputError
+        If the value is not Axes.
+    """
+    if not isinstance(ax, Axes):
+        raise InputError(f"{field}: {errors.shown(ax)}; pass Axes of matplotlib")
+    return ax
+
+
 def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axes:
     """Return the axes that were passed, or the axes of a new figure.
 

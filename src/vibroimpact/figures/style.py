@@ -22,6 +22,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.notebook import EMBEDDED, Drawing, Panels, new_axes
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.argument_types import File, Positive
+from vibroimpact.model.public import public
 from vibroimpact.model.written_units import unitless
 
 FORMATS = ("png", "pdf", "svg")
@@ -331,7 +333,8 @@ def _from_g(multiple: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(multiple, dtype=float) * GRAVITY
 
 
-def save_figure(drawn: Any, path: Path | str, *, dpi: float | None = None) -> Path:
+@public
+def save_figure(drawn: Any, path: File, *, dpi: Positive | None = None) -> Path:
     """Write a figure to a PNG, PDF or SVG file.
 
     The same data always give the same file, byte for byte, because the file contains no date and no

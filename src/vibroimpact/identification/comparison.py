@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from functools import partial
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -15,12 +16,20 @@ from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.residual_structure import CERTAIN
 from vibroimpact.model import Oscillator, PolynomialIsolator, PowerBumper
 from vibroimpact.model.parameters import PARAMETERS, canonical
+from vibroimpact.model.public import public
 
 _CLEAR = 10.0
 """Difference of Akaike's criterion from which on a model has no support (Burnham and Anderson)."""
 
 
-def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
+Fits: TypeAlias = Annotated[
+    Mapping[str, xr.Dataset], partial(check_mapping, what="a dict of results of identify by name")
+]
+"""Results of `identify` by name."""
+
+
+@public
+def compare_fits(fits: Fits) -> xr.Dataset:
     """Compare fits of several models to the same data, by information criteria and residuals.
 
     Parameters
@@ -48,7 +57,6 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
         If there are fewer than two fits, if one of the datasets is not a fit, or if the fits belong
         to different data.
     """
-    check_mapping(fits, "fits", "a dict of results of identify by name")
     if len(fits) < 2:
         raise InputError(f"fits: {len(fits)} given; pass the fits of at least two models")
     reference, first = next(iter(fits.items()))

@@ -24,7 +24,7 @@ from vibroimpact.identification.robust_loss import noises, weighed
 from vibroimpact.identification.uncertainty import bootstrap, spread
 from vibroimpact.identification.untouched_stops import untouched
 from vibroimpact.model import Rig
-from vibroimpact.model.argument_types import NonNegativeInt, PositiveInt, Share
+from vibroimpact.model.argument_types import NonNegativeInt, PositiveInt, Share, String
 from vibroimpact.model.public import public
 from vibroimpact.model.written_units import written_for
 from vibroimpact.tasks.threads import Progress
@@ -208,7 +208,8 @@ def identify(
         return results.labelled(fit, samples, confidence)
 
 
-def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
+@public
+def fitted_rig(result: xr.Dataset, test: String | None = None) -> Rig:
     """Return the fitted rig with the shaking of one of the tests.
 
     Parameters

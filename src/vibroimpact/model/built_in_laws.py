@@ -1,11 +1,32 @@
-"""Replace a law that is defined by a formula by the built-in law with the same force."""
+"""Read a law, and replace one that is defined by a formula by the built-in law with its force."""
 
 from __future__ import annotations
 
-from vibroimpact.errors import InputError
+from typing import Annotated, TypeAlias
+
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.isolators import AnyIsolator, Isolator, PolynomialIsolator
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops import Bumper, PowerBumper, Stop
+
+
+def as_deformable(value: object, field: str) -> AnyIsolator | Stop:
+    """Return an isolator or a stop that is not rigid.
+
+    Raises
+    ------
+    InputError
+        If the value is none of them.
+    """
+    if not isinstance(value, AnyIsolator | Stop):
+        raise InputError(f"{field}: {shown(value)} is not a law; pass an isolator or a stop")
+    if value.rigid:
+        raise InputError(f"{field}: a rigid stop has no displacement; pass a deformable stop")
+    return value
+
+
+Deformable: TypeAlias = Annotated[AnyIsolator | Stop, as_deformable]
+"""An isolator or a stop that is not rigid."""
 
 
 def as_isolator(law: AnyIsolator) -> AnyIsolator:

@@ -25,6 +25,7 @@ from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.oscillator import Oscillator, Units
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -253,6 +254,7 @@ def from_dimensionless(
     return group.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
 
 
+@public
 def to_dimensionless(rig: AnyRig) -> Dimensionless:
     """Return the dimensionless parameters of a rig.
 

@@ -279,6 +279,11 @@ class Law(Named):
         """Derivative of the force with respect to the velocity, at rest (N s/m)."""
         return self.read.slope(0.0, 0.0, 1)
 
+    @property
+    def initial_damping(self) -> float:
+        """The same; of a stop at no deformation."""
+        return self.damping
+
     def static_force(self, displacement: float) -> float:
         """Return the force (N) of a slow displacement or deformation (m); at least 0 for a stop."""
         if not self.is_stop:

@@ -53,12 +53,14 @@ def public(function: Callable[_P, _R]) -> Callable[_P, _R]:
         except TypeError:
             return function(*args, **kwargs)  # the message names the function
         values = bound.arguments
-        for name, check in checks().items():
-            if name in values:
-                values[name] = check(values[name], name)
+        others = {name: check for name, check in checks().items() if name in values}
         subject = values.get(first)
         has_units = first in checks() or hasattr(subject, "attrs")
+        if check := others.pop(first, None):
+            subject = values[first] = check(subject, first)
         with written_for(subject) if has_units else nullcontext():
+            for name, check in others.items():
+                values[name] = check(values[name], name)
             return function(*bound.args, **bound.kwargs)
 
     return checked

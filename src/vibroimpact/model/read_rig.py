@@ -91,6 +91,10 @@ def as_assembly(value: Any, where: str = "rig") -> Assembly:
     return system
 
 
+AnyAssembly: TypeAlias = Annotated[Assembly | Rig | str | Path, as_assembly]
+"""An `Assembly`, a `Rig` with one, or the path of a study file."""
+
+
 def one_system(value: Any, where: str = "rig") -> Rig:
     """Return the rig that an argument describes, of any masses, with or without shaking.
 

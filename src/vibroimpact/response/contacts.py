@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.model import Assembly, Record, Repeated, to_si
-from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model import Assembly, Record, Repeated
+from vibroimpact.model.argument_types import NonNegative
+from vibroimpact.model.public import public
 from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.motion_phases import Origin, Phases, phases, recorded
 
@@ -23,7 +24,8 @@ GRAZING = 1e-3
 speed."""
 
 
-def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
+@public
+def contacts(motion: xr.Dataset, grazing: NonNegative = GRAZING) -> xr.Dataset:
     """List the contacts of a motion, with times, forces, impulses and energy losses.
 
     Times, forces and integrals are exact up to rounding errors. They do not depend on the samples.
@@ -62,10 +64,9 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     InputError
         If the dataset does not hold a motion with samples, or if ``grazing`` is negative.
     """
-    share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = recorded(motion, masses=True, records=True)
     found = phases(motion, origin)
-    data = contact_log(motion, origin, found, share)
+    data = contact_log(motion, origin, found, grazing)
     notes = [*noted(motion), *found.notes]
     return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 

@@ -6,8 +6,8 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe
 from vibroimpact.model import Assembly
-from vibroimpact.model.read_rig import AnyRig, as_assembly
-from vibroimpact.model.written_units import written_for
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyAssembly
 
 _COUPLED = (
     "damping: the undamped modes do not decouple it, so that each damping ratio is the diagonal "
@@ -16,7 +16,8 @@ _COUPLED = (
 _CURVED = "links: curved links have their initial stiffness; the modes are those of small motions"
 
 
-def modes(rig: Assembly | AnyRig) -> xr.Dataset:
+@public
+def modes(rig: AnyAssembly) -> xr.Dataset:
     """Compute the natural frequencies, modes and damping ratios of an assembly without stops.
 
     Parameters
@@ -46,7 +47,8 @@ def modes(rig: Assembly | AnyRig) -> xr.Dataset:
     >>> print(found["mode_shape"].sel(mass="floor_1").values.round(3))
     [0.618 1.   ]
     """
-    system = as_assembly(rig)
+    assert isinstance(rig, Assembly)
+    system = rig
     by_mode = {
         "natural_frequency": system.natural_frequencies,
         "modal_damping_ratio": system.damping_ratios,
@@ -63,5 +65,4 @@ def modes(rig: Assembly | AnyRig) -> xr.Dataset:
     notes = [] if system.is_classically_damped else [_COUPLED]
     if not all(link.isolator.linear for link in system.links.values()):
         notes.append(_CURVED)
-    with written_for(system):
-        return describe(data, "vibroimpact.modes", {"assembly": system.model_dump()}, notes)
+    return describe(data, "vibroimpact.modes", {"assembly": system.model_dump()}, notes)

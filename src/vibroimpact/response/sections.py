@@ -122,6 +122,7 @@ def section_variables(
     }
 
 
+@public
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
     """Compute the impact section: forcing phase and velocity at the start of each contact.
 

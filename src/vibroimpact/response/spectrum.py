@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, to_si
-from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model import Assembly
+from vibroimpact.model.argument_types import Positive
+from vibroimpact.model.public import public
 from vibroimpact.response.motion_phases import Origin, fourier_integrals, recorded
 from vibroimpact.response.sine_fit import forcing_sine
 
@@ -22,7 +23,8 @@ MOST_LINES = 20_000
 """Largest number of lines of a periodic motion."""
 
 
-def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
+@public
+def fourier_spectrum(motion: xr.Dataset, highest: Positive = 50.0) -> xr.Dataset:
     """Compute the Fourier spectrum of displacement, velocity and absolute acceleration.
 
     The acceleration is computed from finite forces. The impulses of impacts on rigid stops are left
@@ -56,21 +58,20 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     InputError
         If the dataset does not hold a motion with samples, or if ``highest`` is not positive.
     """
-    limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
     check_variables(motion, (), "motion", "the result of simulate or steady")
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:
-        return _of_measured(motion, limit)
+        return _of_measured(motion, highest)
     origin = recorded(motion, masses=True)
     if origin.periodic:
         n = int(motion["period"])
-        if limit * n > MOST_LINES:
+        if highest * n > MOST_LINES:
             most = MOST_LINES / n
-            raise InputError(f"highest: {limit:g} is too large; pass at most {most:g}")
-        order = np.arange(int(limit * n + 1e-9) + 1) / n
+            raise InputError(f"highest: {highest:g} is too large; pass at most {most:g}")
+        order = np.arange(int(highest * n + 1e-9) + 1) / n
         lines = _exact(motion, origin, order)
         method = f"exact Fourier coefficients over one period of {n} forcing cycles"
     else:
-        order, lines, cycles = _windowed(motion, origin, limit)
+        order, lines, cycles = _windowed(motion, origin, highest)
         method = f"Hann window over {cycles} forcing cycles"
     data = xr.Dataset(coords={"order": order})
     data.coords["line_frequency"] = ("order", order * origin.repeated.frequency)

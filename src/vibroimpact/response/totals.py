@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.model import Assembly
+from vibroimpact.model.public import public
 from vibroimpact.model.rig import System
 from vibroimpact.response.assembly_rows import coordinates, range_variables
 from vibroimpact.response.motion_phases import Phases, phases, recorded
@@ -19,6 +20,7 @@ from vibroimpact.response.stored_energy import StoredEnergy
 _Array = NDArray[np.float64]
 
 
+@public
 def totals(motion: xr.Dataset) -> xr.Dataset:
     """Compute the exact extremes of a motion, even between its samples, and its energies.
 

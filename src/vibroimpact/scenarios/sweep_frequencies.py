@@ -96,7 +96,7 @@ def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
     if not shaken.grows_with_frequency:
         return stiffer
     natural = stiffer * oscillator.angular_frequency
-    damping = oscillator.isolator.damping + getattr(stop, "damping", 0.0)
+    damping = oscillator.isolator.damping + stop.initial_damping
     higher = stiffer * peak_ratio(damping / (2.0 * oscillator.mass * natural), shaken)
     return min(higher, max(stiffer, MOST_HIGH))
 

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from html import escape
 from typing import Any
 
+from vibroimpact.model.argument_types import Seconds, String
+from vibroimpact.model.public import public
 from vibroimpact.stderr import print_line
 from vibroimpact.tasks.threads import Progress
 
@@ -65,7 +67,8 @@ def progress_lines(what: str) -> Progress:
     return show
 
 
-def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
+@public
+def progress_bar(what: String = "done", *, every: Seconds = 0.2) -> Progress:
     """Return a function that shows progress, for the argument ``progress`` of long computations.
 
     In a notebook, the function updates one line. On a terminal, it updates one line on standard

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from typing import Any
+from functools import partial
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Rig
-from vibroimpact.model.argument_types import Draws, NonNegativeInt, PositiveInt
+from vibroimpact.model.argument_types import Draws, NonNegativeInt, PositiveInt, function_of
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.tasks.threads import Progress, each
@@ -171,8 +172,16 @@ def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
     return data
 
 
+ResponseOfOne: TypeAlias = Annotated[
+    Callable[[Rig], xr.Dataset],
+    partial(function_of, what="a function of one rig that returns a dataset"),
+]
+"""Function of one rig that returns a dataset."""
+
+
+@public
 def for_each_rig(
-    function: Callable[[Rig], xr.Dataset], threads: int | None = None
+    function: ResponseOfOne, threads: PositiveInt | None = None
 ) -> Callable[[list[Rig]], xr.Dataset]:
     """Convert a function of one rig to a function of many rigs, for `ensemble` and `sensitivity`.
 

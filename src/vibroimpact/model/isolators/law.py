@@ -49,6 +49,11 @@ class IsolatorLaw(Named):
     ]
 
     @property
+    def is_stop(self) -> bool:
+        """Whether the law is a stop: always false."""
+        return False
+
+    @property
     def linear(self) -> bool:
         """Whether the force is K u + C v."""
         return False

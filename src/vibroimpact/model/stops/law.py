@@ -81,6 +81,11 @@ class StopLaw(Named):
         return None
 
     @property
+    def is_stop(self) -> bool:
+        """Whether the law is a stop: always true."""
+        return True
+
+    @property
     def linear(self) -> bool:
         """Whether the motion is linear while nothing is hit or left."""
         return False
@@ -89,6 +94,11 @@ class StopLaw(Named):
     def spring_and_dashpot(self) -> tuple[float, float] | None:
         """The pair (K_j, C_j) of a stop whose face relaxes after a contact; otherwise None."""
         return None
+
+    @property
+    def initial_damping(self) -> float:
+        """Derivative of the force with respect to the velocity, at no deformation (N s/m)."""
+        return self.spring_and_dashpot[1] if self.spring_and_dashpot else 0.0
 
 
 class FormulaStop(StopLaw):
@@ -170,6 +180,11 @@ class FormulaStop(StopLaw):
         """The law that a user would have written."""
         fields = {name: value for name, value in self if name != "gap"}
         return Law(f"max({self.formula}, 0)", self.gap, **fields)
+
+    @property
+    def initial_damping(self) -> float:
+        """Derivative of the force with respect to the velocity, at no deformation (N s/m)."""
+        return self.law.initial_damping
 
     def engine_numbers(self) -> StopNumbers:
         """Return the numbers by which the engine follows the formula."""
