@@ -17,8 +17,9 @@ this: **the forward sweep jumps at the upper end, the backward sweep at the lowe
 
 A curve by itself also suggests a jump, by a step that neither of its neighbours announces
 (`STEP`). This finds the jumps of a sweep in one direction, and those of a hysteresis so narrow
-that it hides between two neighbouring frequencies. It is no proof, because frequencies that are
-too far apart make such a step of a smooth curve, too: `confirmed_jumps.confirm_jumps` decides.
+that it hides between two neighbouring frequencies. It does not prove one, because frequencies
+that are too far apart make such a step of a smooth curve, too: `confirmed_jumps.confirm_jumps`
+decides.
 """
 
 from __future__ import annotations
