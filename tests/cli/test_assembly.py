@@ -225,6 +225,15 @@ def test_jumps_of_a_sweep(run):
     assert "Jumps: none" in run(*words[:2], "--to", "1.9Hz", *words[4:])[1]
 
 
+def test_a_step_of_a_smooth_curve_is_no_jump(run):
+    assert run("init", "frame.toml", "--kind", "frame")[0] == 0
+    for step in ("0.02Hz", "0.01Hz"):
+        assert "Jumps: none" in run("sweep", "frame.toml", "--step", step, "--to", "0.34Hz")[1]
+    told = run("sweep", "frame.toml")[1]
+    assert "refine --step\n  forward: 0.74 to 0.76 Hz" in told
+    assert "0.84 and 0.86" in told
+
+
 def rig_without_wall() -> vi.Rig:
     stops = {"pounding": rig().system.stops["pounding"]}
     return vi.Rig(rig().system.replace(stops=stops), "0.1 g")

@@ -10,6 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from reference.zero_one import rotation_number, zero_one
+from vibroimpact.cli import main
 from vibroimpact.stability.motion_type import averages, judge, recurrence, settling
 
 
@@ -70,6 +71,38 @@ def test_a_bounded_growth_over_few_cycles_says_nothing():
     case = vi.laboratory.case("B3-10mm-A3")
     data = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.1)), exponent_cycles=60)
     assert data["motion"].item() == "undecided"
+
+
+@pytest.mark.parametrize(("cycles", "kind"), [(1000, "undecided"), (20_000, "chaotic")])
+def test_weak_chaos_is_never_a_torus(cycles, kind):
+    """Its growth over few cycles is less than that on some tori."""
+    found = judge(growth(0.01, 0.15, cycles), WANDERING[:cycles])
+    assert found.motion == kind
+    assert judge(growth(0.0, 0.15, 1000), WANDERING[:1000]).bounded
+
+
+def test_weak_chaos_of_neighbours(tmp_path, capsys):
+    """The largest exponent is 0.0123 ± 0.0005 per cycle."""
+    path = tmp_path / "neighbours.toml"
+    assert main(["init", str(path), "--kind", "neighbours"]) == 0
+    options = {"samples": 4, "window": 4, "exponent_cycles": 1000}
+    found = [
+        vi.steady(path, frequency=frequency, **options)["motion"].item()
+        for frequency in (2.7903, 2.8005, 2.802, 2.8025)
+    ]
+    assert not {"quasi-periodic", "periodic"} & set(found)
+    data = vi.bifurcation_diagram(path, {"frequency": (2.8025, 2.803)}, 2)
+    assert data["motion"].sel(frequency=2.8025).values.tolist() == ["chaotic", "chaotic"]
+
+
+def test_a_diagram_follows_a_torus_until_it_is_one():
+    rig, shaken, _ = remembering()
+    frequency = shaken.frequency
+    data = vi.bifurcation_diagram(
+        vi.Rig(rig, shaken), {"frequency": (frequency, 1.0001 * frequency)}, 2, directions="up"
+    )
+    assert data["motion"].values.ravel().tolist() == ["quasi-periodic"] * 2
+    assert data["section_displacement"].sizes["section_point"] == 200
 
 
 def test_no_torus_where_areas_shrink_as_the_damping_says():

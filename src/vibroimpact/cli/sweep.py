@@ -97,6 +97,7 @@ def sweep(
     from vibroimpact.facts import rig as rig_facts
     from vibroimpact.facts import sweeps
     from vibroimpact.response import resonance
+    from vibroimpact.response.confirmed_jumps import confirm_jumps, confirmed_mass_jumps
     from vibroimpact.response.sweep import advice
 
     what = subject(rig, changes, output.name, masses=True)
@@ -125,10 +126,12 @@ def sweep(
         if is_assembly(what):
             written.write(data, "sweep", figures.mass_resonance)
             draw_sweep(written, data)
-            summary = as_plain_text(Group(rig_facts.text(what.rig), masses.text(data, hints)))
+            jumps = confirmed_mass_jumps(what.rig, data)
+            of_masses = masses.text(data, jumps, hints)
+            summary = as_plain_text(Group(rig_facts.text(what.rig), of_masses))
             written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)
-            return written.tell(masses.facts(data, hints), masses.text(data, hints))
-        found = resonance.features(data)
+            return written.tell(masses.facts(data, jumps, hints), of_masses)
+        found = confirm_jumps(what.rig, data, resonance.features(data))
         text = sweeps.text(data, found, hints)
         curves = figures.resonance_curves
         units = draws_physical(data, physical)

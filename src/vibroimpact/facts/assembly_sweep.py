@@ -16,12 +16,12 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.facts.assembly import assembly_of
 from vibroimpact.facts.largest import largest, place
 from vibroimpact.facts.number_format import heading as unit_heading
-from vibroimpact.facts.sweeps import jump_columns, ranges, steps, steps_text
+from vibroimpact.facts.sweeps import jump_columns, ranges, steep_steps, steps, steps_text
 from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.units import plain
-from vibroimpact.response.curve_pair import Direction, Swept
-from vibroimpact.response.resonance import jumps, runs
+from vibroimpact.response.mass_jumps import MassJumps
+from vibroimpact.response.resonance import runs
 
 _PROMINENCE = 0.02
 """Smallest prominence of a resonance, as a share of the largest value of its curve."""
@@ -42,7 +42,7 @@ _RESONANCES = (
 )
 
 
-def facts(data: xr.Dataset, advice: list[str]) -> dict[str, Any]:
+def facts(data: xr.Dataset, found: MassJumps, advice: list[str]) -> dict[str, Any]:
     """Return what a sweep of an assembly shows as nested plain values, in SI units."""
     return {
         **steps(data),
@@ -53,7 +53,8 @@ def facts(data: xr.Dataset, advice: list[str]) -> dict[str, Any]:
             for stop in data["stop"].values
             for one in _ranges(data, _hit(data).sel(stop=stop))
         ],
-        "jumps": _jumps(data),
+        "jumps": [one._asdict() for one in found.jumps],
+        "steep": [one._asdict() for one in found.steep],
         "sweeps_differ": _differing(data),
         "unsettled": _ranges(data, data["motion"] != "periodic"),
         "advice": advice,
@@ -104,56 +105,6 @@ def _resonances(data: xr.Dataset) -> list[dict[str, Any]]:
                 for i in scipy.signal.find_peaks(curve, prominence=least or None)[0]
             ]
     return found
-
-
-def _jumps(data: xr.Dataset) -> list[dict[str, Any]]:
-    """Return the jumps of each sweep, with the mass whose displacement changes most.
-
-    They are those of an oscillator (`resonance.jumps`) in the curves of any mass, whose reference
-    values are the largest of the mass.
-    """
-    found: dict[tuple[str, float, float], dict[str, Any]] = {}
-    directions = _directions(data)
-    one = data.sel(direction=list(directions))
-    periodic = one["motion"].transpose("direction", "frequency").values == "periodic"
-    period = one["period"].transpose("direction", "frequency").values
-    touching = _hit(one).any("stop").transpose("direction", "frequency").values
-    for mass in one["mass"].values.tolist():
-        moved, shaken = (
-            one[name].sel(mass=mass).transpose("direction", "frequency").values
-            for name in ("peak_displacement", "peak_acceleration")
-        )
-        a, d = (curve / (np.nanmax(curve, initial=0.0) or 1.0) for curve in (shaken, moved))
-        both = Swept(one["frequency"].values, directions, a, d, periodic, period, touching)
-        for jump in jumps(both):
-            k = directions.index(jump.direction)
-            at = both.frequency.searchsorted([jump.before, jump.after])
-            ends = tuple(moved[k, at].tolist())
-            change = abs(ends[1] - ends[0]) / (max(ends) or 1.0)
-            key = (jump.direction, jump.before, jump.after)
-            if key in found and found[key]["change"] >= change:
-                continue
-            found[key] = {
-                "direction": jump.direction,
-                "before": jump.before,
-                "after": jump.after,
-                "upward": ends[1] > ends[0],
-                "mass": mass,
-                "change": change,
-                "peak_displacement": ends,
-                "peak_acceleration": tuple(shaken[k, at].tolist()),
-                "settled": jump.settled,
-            }
-    order = sorted(found, key=lambda key: (key[0] == "backward", abs(key[1]) * _SIGN[key[0]]))
-    return [{k: v for k, v in found[key].items() if k != "change"} for key in order]
-
-
-_SIGN = {"forward": 1.0, "backward": -1.0}
-
-
-def _directions(data: xr.Dataset) -> tuple[Direction, ...]:
-    known: tuple[Direction, ...] = ("forward", "backward")
-    return tuple(one for one in known if one in data["direction"].values)
 
 
 def _jumps_table(found: list[dict[str, Any]]) -> RenderableType:
@@ -207,9 +158,9 @@ def _differing(data: xr.Dataset) -> list[dict[str, float]]:
     return [{"low": low, "high": high} for low, high in _runs(data, apart.any(axis=1))]
 
 
-def text(data: xr.Dataset, advice: list[str]) -> RenderableType:
+def text(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> RenderableType:
     """Return what a sweep of an assembly shows as tables."""
-    found = facts(data, advice)
+    found = facts(data, jumps, advice)
     parts: list[RenderableType] = [
         steps_text(data),
         Text(),
@@ -234,7 +185,8 @@ def text(data: xr.Dataset, advice: list[str]) -> RenderableType:
         *(Text(f"Note: {line}") for line in noted(data)),
         *(Text(f"Advice: {line}", style="yellow") for line in advice),
     ]
-    return Group(*parts, Text(), resonances, Text(), _jumps_table(found["jumps"]), Text(), *lines)
+    table = [_jumps_table(found["jumps"]), *steep_steps(jumps.steep)]
+    return Group(*parts, Text(), resonances, Text(), *table, Text(), *lines)
 
 
 def _largest_table(part: str, found: dict[str, Any]) -> RenderableType:

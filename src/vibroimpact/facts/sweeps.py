@@ -14,9 +14,10 @@ from vibroimpact.facts import largest
 from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
 from vibroimpact.model.units import plain
+from vibroimpact.response.mass_jumps import MassJump
 from vibroimpact.response.peaks import Peak
 from vibroimpact.response.plausibility import STIFF, UNBOUNDED
-from vibroimpact.response.resonance import Features
+from vibroimpact.response.resonance import Features, Jump
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
 _PEAKS = (
@@ -34,10 +35,13 @@ def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any
     return {
         **steps(data),
         "peaks": [peak._asdict() for peak in found.peaks],
-        "jumps": [
-            {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
-            for jump in found.jumps
-        ],
+        **{
+            name: [
+                {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
+                for jump in some
+            ]
+            for name, some in (("jumps", found.jumps), ("steep", found.steep))
+        },
         "hysteresis": [item._asdict() for item in found.hysteresis],
         "unsettled": [item._asdict() for item in found.unsettled],
         "contact": [item._asdict() for item in found.contact],
@@ -60,6 +64,7 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _peaks(found),
         Text(),
         _jumps(found),
+        *steep_steps(found.steep),
         Text(),
         _hysteresis(data, found),
         ranges(f"Contact with a {stop_word(data)}", contact),
@@ -95,6 +100,16 @@ def _jumps(found: Features) -> RenderableType:
     )
     rows = [{**jump._asdict(), "upward": jump.upward} for jump in found.jumps]
     return table_of(rows, columns, "Jumps")
+
+
+def steep_steps(found: Sequence[Jump | MassJump]) -> list[RenderableType]:
+    """Return lines on the steps that may be smooth, by direction; none if there are no such."""
+    if not found:
+        return []
+    places = [
+        (one.direction, min(one.before, one.after), max(one.before, one.after)) for one in found
+    ]
+    return [Text(), ranges("Steep, but not proved to be a jump; refine --step", places)]
 
 
 def jump_columns(*ends: Column) -> tuple[Column, ...]:

@@ -15,20 +15,23 @@ Whichever the side, above the upper end both directions follow one motion. The b
 arrives from there, so it is the forward one that has changed motion, and the lower end mirrors
 this: **the forward sweep jumps at the upper end, the backward sweep at the lower end.**
 
-A curve by itself also tells of a jump, by a step that neither of its neighbours announces
+A curve by itself also suggests a jump, by a step that neither of its neighbours announces
 (`STEP`). This finds the jumps of a sweep in one direction, and those of a hysteresis so narrow
-that it hides between two neighbouring frequencies.
+that it hides between two neighbouring frequencies. It does not prove one, because frequencies
+that are too far apart make such a step of a smooth curve, too: `confirmed_jumps.confirm_jumps`
+decides.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, swept
-from vibroimpact.response.peaks import CURVES, PROMINENCE, Peak, peaks
+from vibroimpact.response.peaks import CURVES, PROMINENCE, Curve, Peak, peaks
 
 APART = 0.01
 """Excursions that differ by more than this share belong to different motions.
@@ -45,11 +48,12 @@ to 2 % near the bifurcations of the published rig.
 """
 
 STEP = 5.0
-"""A step this many times steeper than both its neighbours is a jump.
+"""A step this many times steeper than both its neighbours suggests a jump.
 
-No continuous branch makes such a step: where it turns as a square root (at a fold, at grazing)
-a step is at most 1/(√2 - 1) = 2.4 times its neighbour, and at a cusp, where hysteresis is about
-to begin and the branch rises as a cube root to both sides, at most 4.5 times.
+Where a continuous branch turns as a square root (at a fold, at grazing), a step is at most
+1/(√2 - 1) = 2.4 times its neighbour, and at a cusp, where hysteresis is about to begin and the
+branch rises as a cube root to both sides, at most 4.5 times. Only a branch that the frequencies
+do not resolve makes a larger one, such as between a minimum and a maximum one step apart.
 """
 
 
@@ -67,11 +71,14 @@ class Jump(NamedTuple):
     """η_d before and after."""
     settled: bool
     """False if the motions beside it did not settle, so that a transient may look like it."""
+    by: Curve = "eta_a"
+    """The curve that shows it: η_d only where η_d alone makes a step, without hysteresis."""
 
     @property
     def upward(self) -> bool:
-        """Whether the acceleration's excursion, which changes most, grows."""
-        return self.eta_a[1] > self.eta_a[0]
+        """Whether the excursion that shows it grows."""
+        before, after = self.eta_d if self.by == "eta_d" else self.eta_a
+        return after > before
 
     @property
     def frequency(self) -> float:
@@ -134,6 +141,8 @@ class Features(NamedTuple):
     """Where the motion did not become periodic within the cycle limit."""
     contact: tuple[Range, ...]
     """Where the mass touches a bumper."""
+    steep: tuple[Jump, ...] = ()
+    """Steps that `confirmed_jumps.confirm_jumps` could not prove to be jumps."""
 
     def scaled(self, factor: float) -> Features:
         """Return the same with all frequencies multiplied by a factor, as for ω = 2π f."""
@@ -150,6 +159,7 @@ class Features(NamedTuple):
             tuple(times(one, *ends, "below", "above") for one in self.hysteresis),
             tuple(times(one, *ends) for one in self.unsettled),
             tuple(times(one, *ends) for one in self.contact),
+            tuple(times(one, "before", "after") for one in self.steep),
         )
 
 
@@ -304,13 +314,13 @@ def jumps_beside(
     }
     for found in apart_by:
         if found.above is not None:
-            places["forward"][found.high, found.above] = found.settled
+            places["forward"][found.high, found.above] = found.settled, "eta_a"
         if found.below is not None:
-            places["backward"][found.below, found.low] = found.settled
+            places["backward"][found.below, found.low] = found.settled, "eta_a"
     return tuple(
-        _jump(both, direction, *(pair if direction == "forward" else pair[::-1]), settled)
+        _jump(both, direction, *(pair if direction == "forward" else pair[::-1]), *shown)
         for direction, found_there in places.items()
-        for pair, settled in sorted(found_there.items(), reverse=direction == "backward")
+        for pair, shown in sorted(found_there.items(), reverse=direction == "backward")
     )
 
 
@@ -319,6 +329,13 @@ def _relative(one: Array, other: Array) -> Array:
     larger = np.maximum(np.abs(one), np.abs(other))
     share: Array = (one - other) / (larger + (larger == 0.0))
     return share
+
+
+def share_of_change(before: float, after: float) -> float:
+    """Return how far two values are apart, as a share of the larger; 0 if one is not finite."""
+    if not math.isfinite(before - after) or before == after:
+        return 0.0
+    return abs(after - before) / max(abs(before), abs(after))
 
 
 def runs(true: Flags, split: Flags | None = None) -> list[tuple[int, int]]:
@@ -336,7 +353,7 @@ def runs(true: Flags, split: Flags | None = None) -> list[tuple[int, int]]:
 
 def _breaks(
     both: Swept, k: int, apart: float, unsettled_apart: float, step: float
-) -> dict[tuple[float, float], bool]:
+) -> dict[tuple[float, float], tuple[bool, Curve]]:
     """Find the steps of one direction's curves that are far steeper than both neighbours.
 
     The first and the last step have one neighbour only, and are not judged.
@@ -344,9 +361,10 @@ def _breaks(
     Returns
     -------
     dict
-        The two frequencies of each, rising; and whether a motion settled on both its sides.
+        The two frequencies of each, rising; whether a motion settled on both its sides; and the
+        curve.
     """
-    found: dict[tuple[float, float], bool] = {}
+    found: dict[tuple[float, float], tuple[bool, Curve]] = {}
     for name in CURVES:
         curve: Array = getattr(both, name)[k]
         known = np.isfinite(curve).nonzero()[0]
@@ -358,17 +376,19 @@ def _breaks(
         for i in steep.nonzero()[0].tolist():
             settled = both.settled[k, known[i : i + 4]].tolist()
             least = apart if settled[1] and settled[2] else unsettled_apart
-            one, other = y[i + 1 : i + 3].tolist()
-            if abs(one - other) / max(abs(one), abs(other)) > least:
+            if share_of_change(*y[i + 1 : i + 3].tolist()) > least:
                 # Near a fold the motion slows down: the last hold before a jump may not settle,
                 # but the one before it will.
                 evident = any(settled[:2]) and any(settled[2:])
-                found[float(frequency[i + 1]), float(frequency[i + 2])] = evident
+                place = float(frequency[i + 1]), float(frequency[i + 2])
+                found.setdefault(place, (evident, name))
     return found
 
 
-def _jump(both: Swept, direction: Direction, before: float, after: float, settled: bool) -> Jump:
+def _jump(
+    both: Swept, direction: Direction, before: float, after: float, settled: bool, by: Curve
+) -> Jump:
     k = both.directions.index(direction)
     at = both.frequency.searchsorted([before, after])
     (a0, a1), (d0, d1) = (getattr(both, name)[k][at].tolist() for name in CURVES)
-    return Jump(direction, before, after, (a0, a1), (d0, d1), settled)
+    return Jump(direction, before, after, (a0, a1), (d0, d1), settled, by)

@@ -111,16 +111,16 @@ def _kind(
         Status.NOT_SETTLED,
     )
 
-    def judged(state: NDArray[np.float64], cycles: int) -> str:
+    def judged(state: NDArray[np.float64], cycles: int) -> tuple[str, bool]:
         told, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
-        return told.motion if status is Status.DONE else ""
+        return (told.motion, told.bounded) if status is Status.DONE else ("", False)
 
     state = followed.state.copy()
-    motion = judged(state, cycles)
-    if motion == "quasi-periodic":
+    motion, bounded = judged(state, cycles)
+    if motion == "quasi-periodic" or bounded:
         check()
         # A slow transient, or chaos that is slow to show, looks the same for a while.
-        motion = judged(state, _LONGER * cycles)
+        motion, _ = judged(state, _LONGER * cycles)
     kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}
     return kinds.get(motion, "not periodic")
 

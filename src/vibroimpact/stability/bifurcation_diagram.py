@@ -123,7 +123,8 @@ def bifurcation_diagram(
         periodic.
     exponent_cycles
         Number of forcing cycles over which the growth of disturbances is averaged, if a motion does
-        not become periodic.
+        not become periodic. Up to 20 times as many are simulated while a quasi-periodic and a
+        weakly chaotic motion cannot be distinguished.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     outputs

@@ -35,6 +35,10 @@ POINT: dict[Kind, tuple[str, ...]] = {
 _ROOM = 4096  # contacts that are written between two looks at the clock
 
 
+LONGER = 4, 20
+"""How many times as long a motion is followed, in turn, if it may be a torus or weakly chaotic."""
+
+
 class Look(NamedTuple):
     """How the section of a motion is recorded."""
 
@@ -103,8 +107,13 @@ def _looked_at(held: Held, look: Look) -> Seen:
 def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
     """As `judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
-    status, rows = _followed(found, cycles, look.max_events, DISCARD)
-    return judge_sections(found, rows), rows, status
+    for longer in (1, *LONGER):
+        status, rows = _followed(found, longer * cycles, look.max_events, DISCARD)
+        kind = judge_sections(found, rows)
+        weak = kind.motion == "undecided" and (kind.bounded or kind.exponents[0] > 0.0)
+        if status is not Status.DONE or not weak:
+            break
+    return kind, rows, status
 
 
 def _followed(

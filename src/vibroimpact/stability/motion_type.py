@@ -25,6 +25,11 @@ SIGNIFICANT = 5.0
 """Standard uncertainties by which an exponent must differ from zero."""
 CLEAR = 20.0
 """Logarithm of a growth that no bounded wandering explains: 1e-16 has become 1e-7."""
+CONSISTENT = 2.0
+"""Standard uncertainties by which a mean growth may be larger than its estimate."""
+WEAK = 0.0012
+"""Mean growth per cycle below which chaos is not told from a torus: over 20,000 cycles, a torus
+explains a logarithm of 24.8."""
 BOUNDED = 5.0
 """A logarithm below this and 2 log N is as on a torus."""
 ENOUGH = 1000
@@ -56,6 +61,8 @@ class Judgement(NamedTuple):
     evidence: str
     returns: int = 0
     """Cycles after which a motion that still settles, slowly, all but returns; 0 for any other."""
+    bounded: bool = False
+    """Whether it is undecided for its uncertainty alone: more cycles tell a torus from chaos."""
 
 
 # A wall that is grazed stretches disturbances without bound.
@@ -151,6 +158,9 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
             "bumpers have no memory of the previous cycle; the motion settles slowly"
         )
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
+    if bounded and not abs(mean[0]) + CONSISTENT * uncertainty[0] <= WEAK:
+        told = f"{grown}: a quasi-periodic or a weakly chaotic motion, which more cycles tell apart"
+        return Judgement("undecided", 0, mean, uncertainty, told, bounded=True)
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic",

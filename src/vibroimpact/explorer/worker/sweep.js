@@ -79,7 +79,7 @@ function hysteresis(frequency, a, d, settled, { apart, unsettled_apart }) {
 // Steps far steeper than both neighbours; see `response.resonance._breaks`.
 function breaks(frequency, curves, settled, { apart, unsettled_apart, step }) {
   const found = new Map();
-  for (const curve of curves) {
+  for (const [by, curve] of curves.entries()) {
     const known = curve.map((_, k) => k).filter((k) => Number.isFinite(curve[k]));
     if (known.length < 4) continue;
     const slope = known.slice(1).map((k, i) => Math.abs((curve[k] - curve[known[i]]) / (frequency[k] - frequency[known[i]])));
@@ -88,23 +88,26 @@ function breaks(frequency, curves, settled, { apart, unsettled_apart, step }) {
       const [before, after] = [known[i], known[i + 1]];
       const [one, other] = [curve[before], curve[after]];
       const least = settled[before] && settled[after] ? apart : unsettled_apart;
-      if (Math.abs(one - other) / Math.max(Math.abs(one), Math.abs(other)) > least) found.set(`${before} ${after}`, [before, after]);
+      if (Math.abs(one - other) / Math.max(Math.abs(one), Math.abs(other)) <= least) continue;
+      const place = `${before},${after}`;
+      if (!found.has(place)) found.set(place, [before, after, by]);
     }
   }
-  return [...found.values()];
+  return found;
 }
 
 function jumps(frequency, a, d, settled, apart, limits) {
   return DIRECTIONS.flatMap((direction, k) => {
-    const places = new Map(breaks(frequency, [a[k], d[k]], settled[k], limits).map((pair) => [pair.join(), pair]));
+    const places = breaks(frequency, [a[k], d[k]], settled[k], limits);
     for (const item of apart) {
       const pair = (direction === "forward" ? [item.high, item.above] : [item.below, item.low]).map((f) => frequency.indexOf(f));
-      if (pair.every((place) => place >= 0)) places.set(pair.join(), pair);
+      if (pair.every((place) => place >= 0)) places.set(pair.join(), [...pair, 0]);
     }
     const ordered = [...places.values()].sort((one, other) => (direction === "forward" ? 1 : -1) * (one[0] - other[0] || one[1] - other[1]));
-    return ordered.map((pair) => {
-      const [before, after] = direction === "forward" ? pair : pair.toReversed();
-      return { direction, before: one(frequency[before], 7), after: one(frequency[after], 7), upward: a[k][after] > a[k][before] };
+    return ordered.map(([low, high, by]) => {
+      const [before, after] = direction === "forward" ? [low, high] : [high, low];
+      const curve = [a, d][by][k];
+      return { direction, before: one(frequency[before], 7), after: one(frequency[after], 7), upward: curve[after] > curve[before] };
     });
   });
 }
