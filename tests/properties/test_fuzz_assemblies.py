@@ -306,6 +306,12 @@ def test_what_parts_at_the_first_instant_is_not_seen_to_pull(phase: float) -> No
         pytest.param(22, 4409, id="a stop that is touched without speed where friction lets go"),
         pytest.param(32, 1150, id="a bumper beside a stop that pulls from the beginning"),
         pytest.param(21, 4543, id="a stop that pushes again within the step in which it ceased"),
+        pytest.param(3, 45, id="a mass held by two others, of which each gave it its velocity"),
+        pytest.param(3, 305, id="a rest whose force begins with a high derivative"),
+        pytest.param(51, 695, id="a stop that is left with a jerk, and met within the same step"),
+        pytest.param(61, 283, id="a curved stop at zero that is pressed by a high derivative"),
+        pytest.param(61, 40, id="a drag between bodies that stops hold together"),
+        pytest.param(62, 258, id="a drag of two equal velocities, whose difference is rounding"),
     ],
 )
 def test_random_assemblies_that_were_found_to_fail(seed: int, which: int) -> None:

@@ -6,8 +6,10 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import places
 from vibroimpact.engine.assembly.events import JUMPED, pack_fresh, speeds, switch_mode, unpack_fresh
 from vibroimpact.engine.assembly.mode import RATES_KEPT, enter_mode
+from vibroimpact.engine.assembly.rates import HEAD, rates_of_mode
 from vibroimpact.engine.assembly.roots import first_fall
 from vibroimpact.engine.assembly.series import (
     expand_state,
@@ -143,6 +145,47 @@ def relax(plan: Vector, mode: int, deformation: Vector, t: float) -> None:
 
 
 @kernel
+def _parts_of(plan: Vector, result: int) -> float:
+    """The size of what a result of the mode's matrix is made of, but for curved laws."""
+    of = places(plan)
+    rates = rates_of_mode(plan, of)
+    n, y = of.masses, int(plan[at.Y])
+    row = rates.place + result // 8 * rates.block + HEAD + result % 8
+    total: float = abs(plan[row + 8 * rates.width])
+    for i in range(n):
+        total += abs(plan[row + 8 * i] * plan[y + i])
+        total += abs(plan[row + 8 * (n + 1 + i)] * plan[y + n + i])
+    for q in range(of.waves):
+        total += abs(plan[row + 8 * (rates.waves + q)] * plan[y + 2 * n + q])
+    for p in range(of.pressed):
+        d = plan[int(plan[at.DEFORMATION]) + int(plan[of.pressed_list + p])]
+        total += abs(plan[row + 8 * (rates.width + 1 + p)] * d)
+    return total
+
+
+@apart
+def held_size(plan: Vector, f: int) -> float:
+    """The size of what the force at a resting stop is made of.
+
+    It is a difference of what its bodies would do, which may already be one in the mode's matrix.
+    """
+    n, count, j = int(plan[at.MASSES]), int(plan[at.STOPS]), 0
+    while int(plan[int(plan[at.RESTING_LIST]) + j]) != f:
+        j += 1
+    one, inertia = int(plan[at.STOP]) + f * at.STOP_WIDTH, 1.0
+    inertia /= plan[int(plan[at.COUPLING]) + f * count + f]
+    total: float = _parts_of(plan, n + int(plan[at.PRESSED]) + j)
+    for end in (at.LEFT, at.RIGHT):
+        i = int(plan[one + end])
+        if i < n:
+            total += inertia * _parts_of(plan, i)
+            if plan[at.CURVED] > 0.0:
+                row, first = int(plan[at.ROW]), int(plan[at.SERIES]) + n + 1
+                total += inertia * abs(plan[first + row + i]) / plan[at.PIECE_LENGTH]
+    return total
+
+
+@kernel
 def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     """The size of what a watched function is made of, by which its rounding is measured."""
     n = int(plan[at.MASSES])
@@ -156,7 +199,8 @@ def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     else:
         size = 0.0
         for j in range(at.DEGREE + 1):
-            size = max(size, 100.0 * abs(b[j]))  # what holds the bodies is a difference of forces
+            size = max(size, 100.0 * abs(b[j]))
+        size = max(size, held_size(plan, f))
     return size
 
 
@@ -193,20 +237,24 @@ def order_of_zero(
     What touches may part by a high derivative, before which no sign of a rounding may decide.
     """
     pressed, one = mode >> f & 1 == 1, int(plan[at.STOP]) + f * at.STOP_WIDTH
-    if pressed and plan[one + at.KIND] != at.KELVIN_VOIGT:
-        return zeros
     a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
     far, speed, acceleration = sizes(plan)
-    stiffness, damping = 1.0, 0.0
-    if pressed:
+    stiffness, damping, held = 1.0, 0.0, 0.0
+    if pressed and plan[one + at.KIND] != at.KELVIN_VOIGT:
+        stiffness, held = 0.0, held_size(plan, f)
+    elif pressed:
         stiffness, damping = plan[one + at.STOP_STIFFNESS], plan[one + at.STOP_DAMPING]
     moved = far + length * (speed + length * acceleration)
     blurred = _DUST * (stiffness + damping * plan[at.RATE]) * moved
     by_tables = plan[at.TABLE_NOW] > 0.0 and zeros > 0
+    if by_tables and zeros > 2:
+        expand_watched(plan, f, mode, length)
+        by_tables = False
     order, share, memory, size, faster = zeros, _DUST, d, speed, acceleration
     for k in range(1, 3 if d > 0.0 else _ORDERS):
         share *= length / k
         memory *= -x / k
+        held *= plan[at.RATE]
         if k >= order:
             found = a[k]
             if by_tables:
@@ -216,10 +264,20 @@ def order_of_zero(
                 if abs(found + memory) <= _DIFFERENCES[8 * k + 7] * blurred:
                     expand_watched(plan, f, mode, length)
                     by_tables, found = False, a[k]
-            if abs(found + memory) > share * (stiffness * size + damping * faster):
+            if abs(found + memory) > share * (stiffness * size + damping * faster + held):
                 break
             order = k + 1
         size, faster = faster, faster * plan[at.RATE]
+    if order > 2 and d == 0.0:
+        # What degree 15 leaves of higher powers is none on the step, but has a curvature at 0: to
+        # take off that would be seen at the end.
+        if by_tables:
+            expand_watched(plan, f, mode, length)
+        for k in range(order):
+            a[k] = 0.0
+        to_bernstein(plan, a, b)
+        for k in range(order):
+            b[k] = 0.0
     if not pressed:
         plan[int(plan[at.ZEROS]) + f] = float(min(order, 3))
     return order

@@ -6,13 +6,16 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.memory import beyond, stack
+from vibroimpact.engine.state import MOST_PARTS
 
 RATES_KEPT = 8
 """Modes whose rates are kept, each with its rate."""
 
 _DEPENDENT = 1e-12
 """A stop whose constraint is this close to those of others adds none (both walls touch a mass)."""
+
+_leaders = stack(MOST_PARTS)
 
 
 @apart
@@ -113,19 +116,25 @@ def hold(plan: Vector, closing: Vector) -> None:
 
 @kernel
 def move_alike(plan: Vector, values: Vector) -> None:
-    """Give bodies that rest on each other the same velocity or acceleration, to the last digit."""
+    """Give bodies that rest on each other the same velocity or acceleration, to the last digit.
+
+    It is that of the ground, or of the first mass among them.
+    """
     n, r = int(plan[at.MASSES]), int(plan[at.RESTING])
-    changed, passes = r > 0, 0
-    while changed and passes <= r:
-        changed, passes = False, passes + 1
+    if r == 0:
+        return
+    leaders, changed = _leaders(), True
+    for i in range(n):
+        leaders[i] = float(i)
+    leaders[n] = -1.0
+    while changed:
+        changed = False
         for j in range(r):
             f = int(plan[int(plan[at.RESTING_LIST]) + j])
             one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-            # The ground, then the first mass, gives it to the other end.
             a, b = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-            first, second = (b, a) if a == n or (b != n and b < a) else (a, b)
-            if second == n:
-                if values[first] != 0.0:
-                    values[first], changed = 0.0, True
-            elif values[second] != values[first]:
-                values[second], changed = values[first], True
+            if leaders[a] == leaders[b]:
+                continue
+            first, second = (a, b) if leaders[a] < leaders[b] else (b, a)
+            leaders[second], changed = leaders[first], True
+            values[second] = values[first] if leaders[first] >= 0.0 else 0.0

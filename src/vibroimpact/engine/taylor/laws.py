@@ -40,11 +40,11 @@ _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 @kernel
 def slowness(
-    v: float, a: float, most: float, unit: float, drag: float, exponent: float
+    v: float, a: float, most: float, unit: float, drag: float, exponent: float, grain: float
 ) -> tuple[float, float, float]:
     """As `slow`, of a speed and an acceleration; `most` is that which the shaking makes (m/s²).
 
-    `unit` is the motion's own time (s).
+    `unit` is the motion's own time (s), `grain` the rounding of a speed that is a difference.
     """
     force = max(a, most) + 1e-300
     if drag == 0.0:
@@ -53,6 +53,8 @@ def slowness(
         1.0 / (exponent + 0.5)
     )
     little = force * min(time, unit)
+    if v <= grain and little < grain:
+        little, a = grain, a + drag * grain**exponent
     # The velocity grows with the acceleration or, where that vanishes, with its rate.
     if v <= little:
         most = 2.0 * little
@@ -78,7 +80,7 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, f
     v, a = abs(motion.v), abs(acceleration_of(plan, motion))
     unit = 1.0 / motion_rate(plan)
     found: tuple[float, float, float] = slowness(
-        v, a, plan[MOST], unit, plan[par.DAMPING], exponent
+        v, a, plan[MOST], unit, plan[par.DAMPING], exponent, 0.0
     )
     return found
 

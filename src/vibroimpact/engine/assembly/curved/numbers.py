@@ -6,6 +6,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import places
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.terms import (
@@ -15,8 +16,8 @@ from vibroimpact.engine.assembly.curved.terms import (
     node,
     row_of,
 )
-from vibroimpact.engine.assembly.curved.watch import held_alike
 from vibroimpact.engine.assembly.events import closing, speeds
+from vibroimpact.engine.assembly.rates import HEAD, rates_of_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
@@ -109,6 +110,27 @@ def dissipation(plan: Vector, row: int, met: float, size: float) -> float:
     return found
 
 
+@kernel
+def _is_held(plan: Vector, f: int) -> bool:
+    """Whether friction or stops hold the two ends of a row: its own force does not part them."""
+    if plan[at.RESTING] == 0.0:
+        return False
+    of_ = places(plan)
+    rates, n = rates_of_mode(plan, of_), of_.masses
+    column = rates.width + 1 + of_.pressed
+    for g in range(f):
+        if int(plan[row_of(plan, g) + of.BEHAVIOUR]) != 0:
+            column += 1
+    one, parts = of_.stops + f * at.STOP_WIDTH, 0.0
+    sign = 1.0
+    for end in (at.LEFT, at.RIGHT):
+        i = int(plan[one + end])
+        if i < n:
+            parts += sign * plan[rates.place + i // 8 * rates.block + HEAD + 8 * column + i % 8]
+        sign = -1.0
+    return bool(parts == 0.0)
+
+
 @apart
 def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
     """Write the numbers of all laws for a step from a state; how long it may be by them (s)."""
@@ -145,7 +167,7 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
         behaviour = int(plan[row + of.BEHAVIOUR])
         gains = closing(plan, f, beyond(plan, place))
         if behaviour == of.DRAG and plan[row + _POWER] != 2.0:
-            if held_alike(plan, f):  # there is no velocity, nor will be while they are held
+            if _is_held(plan, f):  # there is no velocity, nor will be while they are held
                 plan[row + of.ACTIVE] = 0.0
                 continue
             longest = min(longest, _drag(plan, f, row, -closing(plan, f, v), -gains))
@@ -172,7 +194,10 @@ def _drag(plan: Vector, f: int, row: int, rate: float, gains: float) -> float:
                 most += abs(plan[int(plan[at.PUSH]) + i * w + q])
     unit = 1.0 / (plan[at.STIFF_RATE] + plan[at.HIGHEST] + 1e-300)
     drag = plan[row + _LAW + par.DAMPING] * meets
-    little, longest, turning = slowness(abs(rate), abs(gains), most, unit, drag, plan[row + _POWER])
+    grain = _GRAIN * speeds(plan, f, beyond(plan, int(plan[at.Y]) + n))
+    little, longest, turning = slowness(
+        abs(rate), abs(gains), most, unit, drag, plan[row + _POWER], grain
+    )
     if abs(rate) <= little:
         plan[row + of.ACTIVE] = 0.0
     found: float = min(longest, turning)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.advance import first_event, is_positive
+from vibroimpact.engine.assembly.advance import first_event, is_positive, order_of_zero
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.emitted import REACH
@@ -35,12 +35,22 @@ def fall(plan: Vector, a: Vector, size: float, fresh: bool, end: float) -> float
 
     `fresh`: it begins at zero; what is rounding of its first coefficients is left out.
     """
-    order, zeros = int(plan[at.ORDER]), 0
+    zeros = 0
     if fresh:
-        while zeros < 3 and (zeros == 0 or abs(a[zeros]) <= _ZERO * size):
-            a[zeros] = 0.0
+        zeros = 1
+        while zeros < 3 and abs(a[zeros]) <= _ZERO * size:
             zeros += 1
-    elif a[0] < -_WRONG * size:
+    found: float = _fall_from(plan, a, size, zeros, end)
+    return found
+
+
+@apart
+def _fall_from(plan: Vector, a: Vector, size: float, zeros: int, end: float) -> float:
+    """As `fall`, of a series that begins with a zero of this order."""
+    order = int(plan[at.ORDER])
+    for j in range(zeros):
+        a[j] = 0.0
+    if zeros == 0 and a[0] < -_WRONG * size:
         return 0.0
     least = a[0]
     for j in range(1, order + 1):
@@ -164,8 +174,18 @@ def _of_link(
 
 
 @kernel
+def _order_of_depth(plan: Vector, f: int, mode: int, length: float) -> int:
+    """The order of the zero with which a depth begins, by the rule of a clearance."""
+    fresh = int(plan[at.ZEROS]) + f
+    kept = plan[fresh]
+    order: int = order_of_zero(plan, f, mode & ~(1 << f), 0.0, 0.0, length, 1)
+    plan[fresh] = kept
+    return order
+
+
+@kernel
 def _of_stop(
-    plan: Vector, f: int, row: int, size: float, end: float, a: Vector
+    plan: Vector, f: int, row: int, mode: int, length: float, size: float, end: float, a: Vector
 ) -> tuple[float, int]:
     """Of a curved stop that is touched: release (0), another piece of its law (1, of a force 2)."""
     fresh = int(plan[int(plan[at.ZEROS]) + f])
@@ -173,7 +193,8 @@ def _of_stop(
     relative(plan, f, 0, 1.0, a)
     a[0] -= gap
     y = beyond(plan, int(plan[at.Y]))
-    found, which = fall(plan, a, speeds(plan, f, y) + abs(gap), fresh == of.DEPTH_FRESH, end), 0
+    zeros = _order_of_depth(plan, f, mode, length) if fresh == of.DEPTH_FRESH else 0
+    found, which = _fall_from(plan, a, speeds(plan, f, y) + abs(gap), zeros, end), 0
     t, piece, turning = NONE, 1, fresh == of.RATE_FRESH
     active = plan[row + of.ACTIVE] != 0.0
     if int(plan[row + of.BEHAVIOUR]) == of.POWER:
@@ -229,7 +250,7 @@ def first_of(
         found: tuple[float, int] = _of_link(plan, f, row, mode, size, end, a)
         return found
     if plan[one + at.KIND] == at.PUSHING and mode >> f & 1:
-        found = _of_stop(plan, f, row, size, end, a)
+        found = _of_stop(plan, f, row, mode, length, size, end, a)
         return found
     if mode >> f & 1 == 0 and plan[int(plan[at.ZEROS]) + f] == 0.0 and _stays_clear(plan, f):
         return NONE, 0
