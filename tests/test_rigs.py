@@ -177,7 +177,7 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweep(CASE, 2.0), r"^frequencies: 2.0 is not a list"),
         (lambda: vi.sweep(CASE, "2 Hz"), r"^frequencies: '2 Hz' is not a list; pass a list"),
         (lambda: vi.simulate(CASE, 5), r"^frequency: missing, and the rig does not state it"),
-        (lambda: vi.simulate(CASE, 5, frequency="2 kg"), r"'2 kg' is a mass; a frequency"),
+        (lambda: vi.simulate(CASE, 5, frequency="2 kg"), r"'2 kg' is a mass; use a frequency"),
         (lambda: vi.seismic_response(CASE), r"^shaking: Harmonic\(.*is not a Record"),
         (lambda: vi.sweeps([OSCILLATOR], GRID), r"^rigs\[0\]: an Oscillator alone"),
         (lambda: vi.sweeps(3, GRID), r"^rigs: 3 is not a rig"),

@@ -42,8 +42,8 @@ def frequency_marks(axes: Any, frequencies: Mapping[str, float | str]) -> None:
             low, high = ax.get_xlim()
             if not low <= value <= high:
                 raise InputError(
-                    f"frequencies[{name!r}]: {value:g} Hz is outside the frequency axis; a "
-                    f"frequency from {low:.4g} to {high:.4g} Hz is accepted"
+                    f"frequencies[{name!r}]: {value:g} Hz is outside the frequency axis; use "
+                    f"a frequency from {low:.4g} to {high:.4g} Hz"
                 )
     for ax in panels:
         bottom, top = ax.get_ylim()

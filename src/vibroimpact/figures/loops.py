@@ -66,7 +66,7 @@ def force_loop(
         although ``units`` is ``"none"``.
     """
     if units not in (SI, NONE):
-        raise InputError(f"units: {shown(units)} is unknown; 'SI' or 'none' is accepted")
+        raise InputError(f"units: {shown(units)} is unknown; use 'SI' or 'none'")
     if units == NONE and has_unit(amplitude):
         raise InputError(
             f'amplitude: {shown(amplitude)} has a unit, but units is "none"; pass a number without '

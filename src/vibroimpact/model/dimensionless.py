@@ -298,7 +298,7 @@ def _pair(value: PerSide, field: str) -> tuple[float | str | None, float | str |
     if isinstance(value, tuple | list):
         if len(value) != 2:
             raise InputError(
-                f"{field}: {value!r} is not a pair; a number or a pair (right, left) is accepted"
+                f"{field}: {value!r} is not a pair; pass a number or a pair (right, left)"
             )
         return (value[0], value[1])
     return (value, value)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_list
-from vibroimpact.errors import InputError, errors_at, shown
+from vibroimpact.errors import InputError, alternatives, errors_at, shown
 from vibroimpact.model.assembly.names import check_part_name
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -270,7 +270,7 @@ class Periodic(_Repeated):
             return data
         given, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
         if not 1 <= len(given) <= MOST:
-            raise InputError(f"amplitudes: {len(given)} given; 1 to {MOST} are accepted")
+            raise InputError(f"amplitudes: {len(given)} harmonics; pass 1 to {MOST}")
         values = []
         for i, one in enumerate(given):
             value, of = sized(one, of, f"amplitudes[{i}]")
@@ -341,7 +341,7 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
         If it is invalid, or its unit does not fit the quantity.
     """
     if of is not None and not (isinstance(of, str) and of in QUANTITIES):
-        raise InputError(f"of: {shown(of)}; one of {', '.join(map(repr, QUANTITIES))} is accepted")
+        raise InputError(f"of: {shown(of)} is unknown; use {alternatives(map(repr, QUANTITIES))}")
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)

@@ -227,8 +227,7 @@ class Oscillator(Model):
             if not right + left > 0.0:
                 raise InputError(
                     f"right.gap: {pretty(right, LENGTH)} and left.gap: {pretty(left, LENGTH)} "
-                    "leave no room between two rigid stops; gaps with a sum greater than 0 are "
-                    "accepted"
+                    "leave no room between two rigid stops; use gaps with a sum greater than 0"
                 )
         return self
 
@@ -319,10 +318,9 @@ class Oscillator(Model):
             if part is None or part.linear or (name != "isolator" and not stops):
                 continue
             law = part.kind if part.kind != "linear" else "a dashpot with an exponent"
-            accepted = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
+            linear = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
             raise InputError(
-                f"{name}: its law, {law}, is not linear, so it has no {what}; {accepted} is "
-                "accepted"
+                f"{name}: its law, {law}, is not linear, so it has no {what}; use {linear}"
             )
 
     @property

@@ -405,8 +405,8 @@ def _check_odd(read: Formula) -> None:
         if parity(term) != ODD:
             raise InputError(
                 f"formula: column {term.column}: {term.text!r} does not change its sign with u and "
-                "v, as the force of an isolator must; terms such as u**3, u*abs(u), sinh(u/u0) and "
-                "tanh(v/v0) are accepted"
+                "v, as the force of an isolator must; use terms such as u**3, u*abs(u), sinh(u/u0) "
+                "and tanh(v/v0)"
             )
 
 

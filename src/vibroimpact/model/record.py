@@ -240,7 +240,7 @@ class Record:
                 )
             factor = wanted / self.peak
         if factor == 0.0:
-            raise InputError(f"scale: {scale}; a number other than 0 is accepted")
+            raise InputError(f"scale: {scale}; use a number other than 0")
         return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
 
     def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
@@ -280,7 +280,7 @@ class Record:
         """
         degree = _DEGREES.get(baseline)
         if degree is None:
-            raise InputError(f"baseline: {baseline!r}; 'mean' or 'line' is accepted")
+            raise InputError(f"baseline: {baseline!r}; use 'mean' or 'line'")
         time = np.linspace(-1.0, 1.0, len(self._acceleration))
         fitted = np.polynomial.polynomial.polyfit(time, self._acceleration, degree)
         line = np.polynomial.polynomial.polyval(time, fitted)
@@ -349,7 +349,7 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
         unit = to_si(1.0 * values.units, quantity, field)
         values = np.asarray(values.magnitude, dtype=float) * unit
     if hasattr(values, "__len__") and getattr(values, "ndim", 1) > 0 and len(values) > MOST_SAMPLES:
-        raise InputError(f"{field}: {len(values)} samples; at most {MOST_SAMPLES} are accepted")
+        raise InputError(f"{field}: {len(values)} samples; pass at most {MOST_SAMPLES}")
     try:
         found = np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

@@ -179,7 +179,7 @@ def read(
             raise RefusalError(f"is greater than {_bound(maximum, quantity)}")
     except RefusalError as refusal:
         wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
-        raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
+        raise InputError(f"{shown(value)} {refusal}; use {wanted}") from None
     # A negative zero equals zero but prints differently; adding 0.0 removes its sign.
     return number + 0.0
 
@@ -200,7 +200,7 @@ def accepted(
     has_unit = quantity.symbol and (not unitless() or quantity.name in _OF_ANY_RIG)
     number = f"{sign}{quantity.number}"
     example = f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if has_unit else number
-    return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
+    return f"{' '.join((quantity.phrase, *bounds))}, such as {example}"
 
 
 def with_si_unit(value: float, quantity: Quantity) -> str:

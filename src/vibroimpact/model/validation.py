@@ -477,5 +477,5 @@ def _missing(model: type[BaseModel], name: str) -> str:
     metadata = model.model_fields[name].metadata if name in model.model_fields else []
     for accepts in metadata:
         if isinstance(accepts, Accepts):
-            return f"missing; {accepts.words()}"
+            return f"missing; add {accepts.words()}"
     return f"missing; add this key (keys of this table: {listed(in_order(model))})"

@@ -57,7 +57,7 @@ def distribution(
         if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
             raise InputError(
                 f"{field}: {shown(given)} is not a distribution; pass a frozen distribution of "
-                f"scipy.stats, or a text: {KINDS}"
+                f"scipy.stats, or a string: {KINDS}"
             )
         frozen: Distribution = given
         return frozen

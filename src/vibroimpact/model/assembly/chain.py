@@ -81,7 +81,7 @@ def chain(
             "that of the link below it"
         )
     if not isinstance(damping, str) or damping not in ("modal", "rayleigh"):
-        raise InputError(f"damping: {shown(damping)}; 'modal' or 'rayleigh' is accepted")
+        raise InputError(f"damping: {shown(damping)}; use 'modal' or 'rayleigh'")
     if damping == "modal" and rayleigh_modes is not None:
         raise InputError(
             "rayleigh_modes: passed without damping='rayleigh'; remove it, or set the damping"

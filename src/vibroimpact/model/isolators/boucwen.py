@@ -27,7 +27,7 @@ def _whole(value: Any) -> int:
     """Read an integer exponent; 2.0 counts as 2."""
     number: Any = value if isinstance(value, Integral | float) else math.nan
     if isinstance(value, bool) or not 1 <= number <= 100 or not float(number).is_integer():
-        raise InputError(f"{shown(value)}; a whole number from 1 to 100 is accepted, such as 1")
+        raise InputError(f"{shown(value)}; use a whole number from 1 to 100, such as 1")
     return int(number)
 
 
@@ -107,7 +107,7 @@ class BoucWenIsolator(YieldingLaw):
             raise InputError(
                 f"exponent: {self.exponent} is too large, because the yield displacement, "
                 f"{self.yield_displacement:g} m, to this power is outside the range of "
-                f"floating-point numbers; at most {self._sharpest} is accepted"
+                f"floating-point numbers; use at most {self._sharpest}"
             )
         return self
 
