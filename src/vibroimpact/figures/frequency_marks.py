@@ -25,7 +25,7 @@ def frequency_marks(axes: Any, frequencies: Mapping[str, float | str]) -> None:
     axes
         One or several Axes whose horizontal axis is the frequency in Hz.
     frequencies
-        Frequencies, as a mapping from names to numbers in Hz or texts with units.
+        Frequencies, as a mapping from names to numbers in Hz or strings with units.
 
     Raises
     ------

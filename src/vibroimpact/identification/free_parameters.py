@@ -84,12 +84,12 @@ def frees(
     Parameters
     ----------
     given
-        Names, as a list or a text with commas; or a mapping from names to a start, a range (low,
+        Names, as a list or a string with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
     rigs
         The rig and shaking of each test.
     each
-        Names of parameters that are fitted separately per test, as a list or a text with commas.
+        Names of parameters that are fitted separately per test, as a list or a string with commas.
     priors
         Mean and standard deviation by name; None for no prior.
     swings
@@ -129,7 +129,7 @@ def frees(
 
 
 def _names(given: Any, field: str) -> list[str]:
-    """Names from a text with commas or a list of them."""
+    """Names from a string with commas or a list of them."""
     if given is None:
         return []
     if isinstance(given, str):

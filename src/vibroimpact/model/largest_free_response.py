@@ -25,7 +25,7 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     oscillator
         The oscillator. Its stops are ignored.
     amplitude
-        Peak base acceleration A in m/s², or text with a unit.
+        Peak base acceleration A in m/s², or a string with a unit.
 
     Returns
     -------

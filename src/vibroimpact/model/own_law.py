@@ -85,12 +85,12 @@ class Law(Named):
     formula
         Formula of the force in N, such as ``"k*u + k3*u**3 + c*v"``.
     gap
-        For a stop: distance from the mass at u = 0 to the undeformed stop, in m; or text such as
-        ``"7.5 mm"``. Default: None, for an isolator.
+        For a stop: distance from the mass at u = 0 to the undeformed stop, in m; or a string such
+        as ``"7.5 mm"``. Default: None, for an isolator.
     **numbers
-        Values of the names in the formula. A text with a unit, such as ``k="26 kN/m"``, is checked
-        against the units of the formula. A plain number is in SI units. A number cannot have the
-        name of a variable, of a function or of a field of this class, such as ``gap``.
+        Values of the names in the formula. A string with a unit, such as ``k="26 kN/m"``, is
+        checked against the units of the formula. A plain number is in SI units. A number cannot
+        have the name of a variable, of a function or of a field of this class, such as ``gap``.
 
     Raises
     ------

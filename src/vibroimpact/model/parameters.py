@@ -245,7 +245,7 @@ def _only(name: str) -> list[str]:
 def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
     """Return a rig with other values at some paths, in any order.
 
-    The values are numbers in SI units, texts with units, or whole parts; None removes a part. A
+    The values are numbers in SI units, strings with units, or whole parts; None removes a part. A
     path may name any field, and the fields of an absent stop, which is then made. All fields are
     set at once, that of one stop after that of all stops. Derived parameters follow. They keep what
     their definitions keep, except a damping that is stated; a period keeps the damping ratio also

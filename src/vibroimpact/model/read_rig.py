@@ -39,7 +39,7 @@ def as_rig(
     value
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
-        Forcing frequency in Hz, or text with a unit. Default: the frequency of the rig.
+        Forcing frequency in Hz, or a string with a unit. Default: the frequency of the rig.
     where
         Name of the argument in error messages.
     oscillator_alone

@@ -38,7 +38,7 @@ class Record:
     acceleration
         At least 2 samples of the acceleration in m/s², or a pint quantity.
     step
-        Time between samples in s, greater than 0; or text such as ``"10 ms"``.
+        Time between samples in s, greater than 0; or a string such as ``"10 ms"``.
 
     Raises
     ------
@@ -89,9 +89,9 @@ class Record:
             numbers as they are, for a rig without units. Default: the unit in the file. It is
             required if the file states none.
         step
-            Time between samples (s, or text with a unit). It replaces the step or the times in the
-            file. The values of a file of digitised film, whose times are uneven, are interpolated
-            at this step.
+            Time between samples (s, or a string with a unit). It replaces the step or the times in
+            the file. The values of a file of digitised film, whose times are uneven, are
+            interpolated at this step.
         station, label
             Names of the station and of the component. They replace the names in the file.
         decimal
@@ -143,7 +143,7 @@ class Record:
         displacement
             At least 8 samples of the displacement in m, or a pint quantity.
         step
-            Time between samples in s, greater than 0; or text such as ``"10 ms"``.
+            Time between samples in s, greater than 0; or a string such as ``"10 ms"``.
 
         Raises
         ------
@@ -217,7 +217,7 @@ class Record:
         scale
             Factor by which the record is multiplied. It must not be 0.
         peak
-            Peak of the scaled record in m/s², or text such as ``"0.3 g"``. Pass it instead of
+            Peak of the scaled record in m/s², or a string such as ``"0.3 g"``. Pass it instead of
             ``scale``.
 
         Raises

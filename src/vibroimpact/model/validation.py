@@ -43,8 +43,8 @@ class Accepts:
     """Annotation of a field: its quantity and its bounds (SI units).
 
     ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres, which may be passed as
-    a number or as text with units. With ``optional=True`` the field may also be None, which means
-    that the value is unknown.
+    a number or as a string with a unit. With ``optional=True`` the field may also be None, which
+    means that the value is unknown.
 
     If the unit depends on an exponent, `by` is the name of the field with the exponent. The class
     must declare that field before. `family` returns the quantity for an exponent. `quantity` is the
@@ -127,7 +127,7 @@ def takes_fields(init: _Init) -> _Init:
     """Let an ``__init__``, which has no body, pass its arguments on as the fields of these names.
 
     An argument that is None by default is left out if it is None. The signature is written out for
-    calls by position, for ``help``, and because texts with units are accepted, too.
+    calls by position, for ``help``, and because strings with units are accepted, too.
     """
     _, *parameters = inspect.signature(init).parameters.values()
     names = [one.name for one in parameters]
@@ -356,7 +356,7 @@ def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelTy
     model
         The class, such as `Oscillator`.
     data
-        The table: a mapping from field names to numbers, texts with units or tables.
+        The table: a mapping from field names to numbers, strings with units or tables.
     where
         Path of the table in its file, such as ``"oscillator"``.
 

@@ -52,7 +52,7 @@ class Assembly(Model):
     Parameters
     ----------
     masses
-        Mapping from the names of the masses to the masses in kg, greater than 0, or texts such as
+        Mapping from the names of the masses to the masses in kg, greater than 0, or strings such as
         ``"300 t"``.
     links
         Mapping from names to objects `Link` with the law of an isolator. A mapping with the keys
@@ -65,7 +65,7 @@ class Assembly(Model):
         `Bumper` may have the coefficient of restitution of this mass, ``restitution``, instead of
         the damping. Default: no stops.
     forces
-        Mapping from names of masses to constant forces in N, positive to the right, or texts such
+        Mapping from names of masses to constant forces in N, positive to the right, or strings such
         as ``"5 kN"``. Default: none.
     damping
         Damping besides that of the links: a `ModalDamping` or a `RayleighDamping`. Default: none.

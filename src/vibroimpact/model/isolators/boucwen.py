@@ -44,13 +44,13 @@ class BoucWenIsolator(YieldingLaw):
     Parameters
     ----------
     elastic_stiffness
-        Elastic stiffness k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+        Elastic stiffness k_e in N/m, greater than 0; or a string such as ``"500 kN/m"``.
     post_yield_stiffness
         Post-yield stiffness k_p in N/m, from 0 to k_e.
     yield_force
-        Yield force F_y in N, greater than 0; or text such as ``"1 kN"``.
+        Yield force F_y in N, greater than 0; or a string such as ``"1 kN"``.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     exponent
         Exponent n, a whole number from 1 to 100. The larger it is, the sharper is the transition to
         yielding. Default: 1.
