@@ -169,7 +169,7 @@ def test_sines_best_and_json(run, study):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (("--vary", "length=1:2"), "--vary: 'length' is unknown; one of "),
+        (("--vary", "length=1:2"), "--vary: 'length' is unknown; use "),
         (("--vary", "gap=2"), "--vary: gap: '2' is not a range; pass LOW:HIGH"),
         (
             ("--vary", "gap=0.2:0.1"),

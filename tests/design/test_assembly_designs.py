@@ -105,7 +105,7 @@ def test_wrong_input() -> None:
         ({}, "^frequency_span: missing; an Assembly has several resonances"),
         (
             {"records": RECORDS, "limits": {"penetration": 0.1}},
-            "^limits: 'penetration'; one of peak_displacement",
+            "^limits: 'penetration' is unknown; use peak_displacement",
         ),
         ({"frequency_span": (1, 2), "limits": {"peak_drift": 0.1}}, "^limits: 'peak_drift'; "),
     ):

@@ -176,7 +176,7 @@ def test_what_has_no_bound_is_infinite() -> None:
     ("arguments", "line"),
     [
         ({"vary": {}}, "vary: no parameter; pass a dict of values by parameter, with at least one"),
-        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of frequency, "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; use frequency, "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
@@ -202,7 +202,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"frequency_span": "1 Hz"}, "frequency_span: '1 Hz'; pass the lowest"),
         ({"records": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
         ({"step": 0.0}, "step: 0"),
-        ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
+        ({"limits": {"speed": 1.0}}, "limits: 'speed' is unknown; use peak_displacement, "),
         ({"records": RECORDS, "tail": -1.0}, "tail: -1"),
         ({"threads": 0}, "threads: 0"),
         ({"rig": 3}, "rig: 3"),

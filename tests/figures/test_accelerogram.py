@@ -63,7 +63,9 @@ def test_what_is_refused():
     for other in (vi.response_spectrum(RECORD, 1.0), spectrum["pseudo_velocity"], None):
         with pytest.raises(vi.InputError, match=r"^spectrum: this is not a response spectrum"):
             response_spectra(other)
-    with pytest.raises(vi.InputError, match=r"^quantity: 'x'; one of spectral_displacement, "):
+    with pytest.raises(
+        vi.InputError, match=r"^quantity: 'x' is unknown; use spectral_displacement, "
+    ):
         response_spectra(spectrum, quantity="x")
     many = vi.response_spectrum(RECORD, PERIODS, np.linspace(0.0, 0.5, 26))
     with pytest.raises(vi.InputError, match=r"^spectrum: 26 curves; at most 25"):

@@ -95,7 +95,7 @@ class TestFamily:
     @pytest.mark.parametrize(
         ("options", "told"),
         [
-            ({"quantity": "eta"}, "quantity: 'eta'; one of eta_a, eta_d"),
+            ({"quantity": "eta"}, "quantity: 'eta' is unknown; use eta_a, eta_d"),
             (
                 {"labels": {"B1": "x"}},
                 "labels: 'B1' is not a rig of data; use B2-G1-A3, B2-G3-A3",
