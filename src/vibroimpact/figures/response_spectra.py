@@ -72,7 +72,7 @@ def response_spectra(
             "records, orientations or damping ratios"
         )
     ax = axes_or_new(ax, (5.6, 3.6), title)
-    # Colours tell records or orientations apart, and dashes the rest; alone, both change together.
+    # Colours distinguish records or orientations, and dashes the rest; alone, both change together.
     groups = [(name, _orientation(curve)) for name, curve in every]
     numbers = {group: number for number, group in enumerate(dict.fromkeys(groups))}
     grouped = len(numbers) > 1

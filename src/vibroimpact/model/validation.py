@@ -92,7 +92,7 @@ class Accepts:
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        """Tell pydantic to call this object before its own check."""
+        """Make pydantic call this object before its own check."""
         if self.by is None:
             return core_schema.no_info_before_validator_function(self, handler(source))
 
@@ -443,7 +443,7 @@ def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
 
 
 def _choice(model: type[BaseModel], name: str) -> Choice | None:
-    """What tells apart the classes that a field takes, if there are several."""
+    """What distinguishes the classes that a field takes, if there are several."""
     field = model.model_fields.get(name)
     return next((m for m in field.metadata if isinstance(m, Choice)), None) if field else None
 
