@@ -8,10 +8,22 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.cli import main
-from vibroimpact.errors import LONGEST, InputError, alternatives, short_line
+from vibroimpact.errors import LONGEST, InputError, alternatives, meant, short_line, unknown
 from vibroimpact.figures import resonance_family
 
 NAMES = [f"channel {i}" for i in range(500)]
+
+
+def test_an_unknown_name_is_followed_by_what_to_use():
+    assert unknown("x", ["gap", "mass", "force"]) == "'x' is unknown; use gap, mass or force"
+    assert unknown("gapp", ["gap"]) == "'gapp' is unknown; did you mean gap? Use gap"
+    assert unknown(3, ["gap", "mass"]) == "3 is unknown; use gap or mass"
+    assert alternatives([]) == ""
+
+
+def test_a_suggestion_requires_the_stated_likeness():
+    assert meant("gp", ["gap"]) == "did you mean gap? "
+    assert meant("gp", ["gap"], cutoff=0.9) == ""
 
 
 def test_a_long_list_loses_items_before_its_last():

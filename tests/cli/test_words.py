@@ -101,6 +101,11 @@ def test_only_options_of_the_command_are_recommended(refused):
     assert "--amplitude" not in refused("record", "quake.csv", "--force", "450N")
 
 
+def test_a_suggestion_ends_its_sentence(refused):
+    told = refused("sweep", CASE, "--directio", "forward")
+    assert told.endswith("Did you mean --direction? See --help")
+
+
 def test_unused_words_are_told_plainly(refused):
     assert refused("sweep", CASE, "more") == ("'more' is one word too many; see --help")
 
