@@ -170,7 +170,10 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweep("B9-G1-A3", GRID), r"^rig: 'B9-G1-A3' is not a rig; .*bumper 'B9'"),
         (lambda: vi.sweep(OSCILLATOR, GRID), r"^rig: an Oscillator alone has no shaking"),
         (lambda: vi.sweep(SHAKEN, GRID), r"^rig: a Harmonic alone has no oscillator"),
-        (lambda: vi.sweep(GRID, CASE), r"^rig: \[1.0, 2.0\] is not a rig; a Rig, a laboratory"),
+        (
+            lambda: vi.sweep(GRID, CASE),
+            r"^rig: \[1.0, 2.0\] is not a rig; pass a Rig, a laboratory",
+        ),
         (lambda: vi.sweep(None, GRID), r"^rig: None is not a rig"),
         (lambda: vi.sweep("somewhere/rig", GRID), "path of a study file, such as "),
         (lambda: vi.sweep("none.toml", GRID), r"none\.toml' cannot be read .*study file"),

@@ -332,7 +332,10 @@ def test_branches_of_each_mass_with_their_contacts() -> None:
         (lambda: figures.contact_forces(motion(), stops=[]), "stops: empty"),
         (lambda: figures.mass_envelopes({}), "motions: empty"),
         (lambda: figures.mass_resonance(motion()), "data: this is not a sweep"),
-        (lambda: figures.mass_resonance(swept(), quantity="eta_d"), "quantity: 'eta_d'; one of"),
+        (
+            lambda: figures.mass_resonance(swept(), quantity="eta_d"),
+            "quantity: 'eta_d' is unknown; use",
+        ),
         (lambda: figures.mass_branches(swept()), "data: this is not a branch"),
         (lambda: figures.branch_diagram(branch()), "data: it is of an Assembly of several masses"),
         (lambda: figures.resonance_curves(swept()), "data: it is of an Assembly of several"),

@@ -580,8 +580,8 @@ def test_other_quantities_and_datasets_are_no_spectrum():
     lines = vi.fourier_spectrum(hitting())
     refused(
         lambda: spectrum_lines(lines, quantity="jerk"),
-        "quantity: 'jerk'; ",
-        "displacement, velocity, acceleration",
+        "quantity: 'jerk' is unknown; ",
+        "displacement, velocity or acceleration",
     )
     for wrong in (hitting(), xr.Dataset()):
         accepted = "the result of fourier_spectrum"
