@@ -1,4 +1,4 @@
-"""Check that no text uses the words that the project avoids (CONTRIBUTING.md, "How we write").
+"""Check that no text uses the words that the project avoids (CONTRIBUTING.md, "Style").
 
 python docs/check_words.py PATH...
 

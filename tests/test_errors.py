@@ -8,25 +8,39 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.cli import main
-from vibroimpact.errors import LONGEST, InputError, short_line
+from vibroimpact.errors import LONGEST, InputError, alternatives, meant, short_line, unknown
 from vibroimpact.figures import resonance_family
 
 NAMES = [f"channel {i}" for i in range(500)]
 
 
+def test_an_unknown_name_is_followed_by_what_to_use():
+    assert unknown("x", ["gap", "mass", "force"]) == "'x' is unknown; use gap, mass or force"
+    assert unknown("gapp", ["gap"]) == "'gapp' is unknown; did you mean gap? Use gap"
+    assert unknown(3, ["gap", "mass"]) == "3 is unknown; use gap or mass"
+    assert alternatives([]) == ""
+
+
+def test_a_suggestion_requires_the_stated_likeness():
+    assert meant("gp", ["gap"]) == "did you mean gap? "
+    assert meant("gp", ["gap"], cutoff=0.9) == ""
+
+
 def test_a_long_list_loses_items_before_its_last():
-    assert short_line(f"name: 'x'; one of {', '.join(NAMES[:9])} is accepted").count(",") == 8
-    told = short_line(f"name: 'x'; one of {', '.join(NAMES)} is accepted")
-    assert told.startswith("name: 'x'; one of channel 0, channel 1, channel 2, ")
-    kept = told.count("channel") - 1
-    assert told.endswith(f"channel {kept - 1}, ... {499 - kept} more ..., channel 499 is accepted")
+    assert short_line(f"name: 'x'; use {alternatives(NAMES[:9])}").count(",") == 7
+    told = short_line(f"name: 'x'; use {alternatives(NAMES)}")
+    assert told.startswith("name: 'x'; use channel 0, channel 1, channel 2, ")
+    kept = told.count("channel") - 2
+    assert told.endswith(
+        f"channel {kept - 1}, ... {498 - kept} more ..., channel 498 or channel 499"
+    )
     assert LONGEST - 20 < len(told) <= LONGEST
 
 
 def test_the_longer_of_two_lists_is_cut_first():
-    keys = "a, b, c, d, e and f are accepted"
-    told = short_line(f"one: {', '.join(NAMES)} are accepted; two: {keys}")
-    assert told.endswith(f"channel 499 are accepted; two: {keys}")
+    keys = "use a, b, c, d, e or f"
+    told = short_line(f"one: use {alternatives(NAMES)}; two: {keys}")
+    assert told.endswith(f"channel 499; two: {keys}")
     assert len(told) <= LONGEST
 
 
@@ -41,7 +55,7 @@ def test_what_is_no_list_loses_its_middle(part):
 
 def test_the_path_of_a_file_is_kept():
     path = f"/{'folder/' * 20}file.csv"
-    told = str(InputError(f"file: {path!r}; {', '.join(NAMES)} are accepted"))
+    told = str(InputError(f"file: {path!r}; use {alternatives(NAMES)}"))
     assert repr(path) in told
     assert len(told) <= LONGEST + len(repr(path))
 

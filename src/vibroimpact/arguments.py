@@ -24,13 +24,13 @@ def check_path(value: object, field: str) -> Path:
     Raises
     ------
     InputError
-        If it is not a text or a path, or if no file system accepts it.
+        If it is not a string or a path, or if no file system accepts it.
     """
     path = value if isinstance(value, str) else None
     if isinstance(value, os.PathLike):
         path = os.fspath(value)
     if not isinstance(path, str):
-        raise InputError(f"{field}: {shown(value)} is not a path; pass the path as text")
+        raise InputError(f"{field}: {shown(value)} is not a path; pass the path as a string")
     if len(path) > LONGEST_PATH:
         raise InputError(
             f"{field}: {shown(path)} has {len(path)} characters; pass a path of at most "
@@ -45,7 +45,7 @@ def check_path(value: object, field: str) -> Path:
 
 
 def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
-    """Return a mapping whose keys are texts.
+    """Return a mapping whose keys are strings.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
     Raises
     ------
     InputError
-        If it is not a mapping, or if one of its keys is not a text.
+        If it is not a mapping, or if one of its keys is not a string.
     """
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
         raise InputError(f"{field}: {shown(value)}; pass {what}")
@@ -67,19 +67,19 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
 
 
 def check_texts(value: object, field: str, example: str) -> None:
-    """Check that a value is None or a mapping from texts to texts, of which `example` is one.
+    """Check that a value is None or a mapping from strings to strings, of which `example` is one.
 
     Raises
     ------
     InputError
         If it is anything else.
     """
-    what = f'a dict of texts, such as {{"displacement_excursion": "{example}"}}'
+    what = f'a dict of strings, such as {{"displacement_excursion": "{example}"}}'
     held = {} if value is None else check_mapping(value, field, what)
     for key, one in held.items():
         if not isinstance(one, str):
             raise InputError(
-                f"{field}[{key!r}]: {shown(one)} is not a text; pass a text, such as {example!r}"
+                f"{field}[{key!r}]: {shown(one)} is not a string; pass a string such as {example!r}"
             )
 
 
@@ -115,7 +115,7 @@ def check_name(value: object, names: Collection[str], field: str) -> str:
     Raises
     ------
     InputError
-        If it is another name, or if it is not a text.
+        If it is another name, or if it is not a string.
     """
     if not isinstance(value, str) or value not in names:
         raise InputError(f"{field}: {unknown(value, names)}")
@@ -157,7 +157,7 @@ def check_list(
     Raises
     ------
     InputError
-        If it is not a list, if it is a text, or if it has more than `most` items.
+        If it is not a list, if it is a string, or if it has more than `most` items.
     """
     if not is_list(value):
         raise InputError(f"{field}: {shown(value)} is not a list; pass {what}")
@@ -168,7 +168,7 @@ def check_list(
 
 
 def is_list(value: object) -> bool:
-    """Return whether a value is a sequence of items. Texts, bytes and mappings are not."""
+    """Return whether a value is a sequence of items. Strings, bytes and mappings are not."""
     value = getattr(value, "magnitude", value)  # of a quantity
     is_scalar = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
     return isinstance(value, Iterable) and not is_scalar

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 LONGEST = 320
 """Largest number of characters of a message, excluding full paths of files."""
 _END = LONGEST // 3
-"""Number of characters kept of its end, which states what is accepted."""
+"""Number of characters kept of its end, which states what to do."""
 _LONGEST_NAME = 60
 """Largest number of characters of a wrong name that are compared with accepted names."""
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
@@ -27,7 +27,7 @@ class InputError(ValueError):
     """Exception that is raised if a value passed by the caller is invalid.
 
     The message is one line of about 300 characters at most. It states the name of the field, its
-    value, and which values are accepted.
+    value, and what to do.
     """
 
     def __init__(self, message: object = "") -> None:
@@ -116,13 +116,32 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def meant(name: object, accepted: Iterable[str]) -> str:
-    """Return a suggestion for a wrong name, such as ``did you mean gap?``, or ""."""
-    close = similar(name, accepted)
-    return f"did you mean {close}? " if close else ""
+_LIKENESS = 0.8
+"""Least similarity of a wrong name to the name that is suggested."""
 
 
-def similar(name: object, accepted: Iterable[str], cutoff: float = 0.8) -> str:
+def suggested(words: str) -> str:
+    """Return a suggestion of some words, such as ``did you mean gap? ``, or "" without words."""
+    return f"did you mean {words}? " if words else ""
+
+
+def meant(name: object, accepted: Iterable[str], cutoff: float = _LIKENESS) -> str:
+    """Return a suggestion for a wrong name, such as ``did you mean gap? ``, or ""."""
+    return suggested(similar(name, accepted, cutoff))
+
+
+def advised(suggestion: str, what: str) -> str:
+    """Return a suggestion or "", followed by the advice to use what is accepted."""
+    return f"{suggestion}{'Use' if suggestion else 'use'} {what}"
+
+
+def alternatives(names: Iterable[str]) -> str:
+    """Return names as a list in words, such as ``gap, mass or amplitude``."""
+    every = list(names)
+    return " or ".join(filter(None, (", ".join(every[:-1]), *every[-1:])))
+
+
+def similar(name: object, accepted: Iterable[str], cutoff: float = _LIKENESS) -> str:
     """Return the accepted name that a wrong name probably means, or ""."""
     written = name.strip()[:_LONGEST_NAME] if isinstance(name, str) else ""
     names = list(accepted)
@@ -135,8 +154,7 @@ def similar(name: object, accepted: Iterable[str], cutoff: float = 0.8) -> str:
 def unknown(name: object, accepted: Iterable[str]) -> str:
     """Return the text of an error about an unknown name, with the accepted names."""
     names = list(accepted)
-    hint = meant(name, names)
-    return f"{shown(name)}; {hint}{'One' if hint else 'one'} of {', '.join(names)} is accepted"
+    return f"{shown(name)} is unknown; {advised(meant(name, names), alternatives(names))}"
 
 
 UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")

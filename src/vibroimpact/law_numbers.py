@@ -1,4 +1,4 @@
-"""What a law tells the engine: plain numbers, which stand in a rig's vector.
+"""What a law passes to the engine: plain numbers, which stand in a rig's vector.
 
 Forces are in N, not yet per unit mass.
 """

@@ -67,7 +67,7 @@ def test_wrong_planes() -> None:
         ({"plane": {**good, "velocity.base": (0, 1)}}, "pass a dict of two coordinates"),
         (
             {"plane": {"displacement.x": (0, 1), "velocity.roof": (0, 1)}},
-            "^plane: 'displacement.x'; ",
+            "^plane: 'displacement.x' is unknown; ",
         ),
         (
             {"plane": {**good, "velocity.roof": (1, 0)}},

@@ -473,7 +473,7 @@ def test_ensemble(run, tmp_path):
                 "--plane",
                 "velocity.east=0:1",
             ),
-            "--plane: 'displacement.wes'; one of displacement.west, ",
+            "--plane: 'displacement.wes' is unknown; did you mean displacement.west? Use ",
         ),
         (
             ("basins", "neighbours", "--plane", "velocity.east=1"),

@@ -122,7 +122,7 @@ def test_along_the_gap(gaps):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--vary", "colour=1:2"], "--vary: 'colour' is unknown; one of frequency, amplitude"),
+        (["--vary", "colour=1:2"], "--vary: 'colour' is unknown; use frequency, amplitude"),
         (["--vary", "gap"], "pass PATH=VALUE in one word, such as gap=9mm"),
         (["--vary", "gap=1mm"], "--vary: gap: '1mm' is not a range"),
         (["--vary", "gap=1mm:2mm", "--vary", "mass=1:2"], "--vary: given 2 times, but"),

@@ -169,7 +169,7 @@ def test_sines_best_and_json(run, study):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (("--vary", "length=1:2"), "--vary: 'length' is unknown; one of "),
+        (("--vary", "length=1:2"), "--vary: 'length' is unknown; use "),
         (("--vary", "gap=2"), "--vary: gap: '2' is not a range; pass LOW:HIGH"),
         (
             ("--vary", "gap=0.2:0.1"),
@@ -180,8 +180,8 @@ def test_sines_best_and_json(run, study):
             ("--vary", "isolator.yield_force=1:2"),
             "--vary: 'isolator.yield_force' is not a parameter of this rig",
         ),
-        (("--limit", "speed", "1"), "--limit: 'speed'; one of "),
-        (("--best", "--limit", "speed", "1"), "--limit: 'speed'; one of "),
+        (("--limit", "speed", "1"), "--limit: 'speed' is unknown; use "),
+        (("--best", "--limit", "speed", "1"), "--limit: 'speed' is unknown; use "),
         (("--fractile", "2"), "--fractile: '2'"),
         (("--scale", "0"), "scale: 0"),
         (("none.csv",), "record: 'none.csv' cannot be read"),
@@ -194,7 +194,10 @@ def test_wrong_input_is_one_line_and_nothing_is_written(refused, study, words, l
 @pytest.mark.parametrize(
     ("table", "line"),
     [
-        ("[design]\nrecord = 'a.csv'", "design.record: unknown key; records, vary, limits and fr"),
+        (
+            "[design]\nrecord = 'a.csv'",
+            "design.record: unknown key; did you mean records? Use records, vary, limits or fr",
+        ),
         ("[design]\nrecords = ['no.csv']", "record: 'no.csv' cannot be read"),
         ("[design]\nrecords = ['a.csv']\nvary = { gap = 3 }", "design.vary.gap"),
         ("[design]\nfractile = 1.5", "design.fractile: 1.5"),

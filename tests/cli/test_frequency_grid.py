@@ -62,9 +62,12 @@ def test_options_come_before_the_study_and_it_before_the_default():
         (("0Hz", None, None, None), r"--from: '0Hz' is not greater than 0"),
         ((None, "-1Hz", None, None), r"--to: '-1Hz' is not greater than 0"),
         ((None, None, "nan", None), r"--step: 'nan' is not finite"),
-        (("1kg", None, None, None), r"--from: '1kg' is a mass; a frequency"),
+        (("1kg", None, None, None), r"--from: '1kg' is a mass; use a frequency"),
         (("6Hz", None, None, None), r"--from: 6 Hz is above --to, 5 Hz"),
-        ((None, None, "1nHz", None), r"--step: 1e-09 Hz makes 4500000001 frequencies, but at most"),
+        (
+            (None, None, "1nHz", None),
+            r"--step: 1e-09 Hz makes 4500000001 frequencies, more than 1000000; raise --step",
+        ),
         ((None, "4Hz", None, "1Hz"), r"--to: given together with --frequencies"),
     ],
 )

@@ -52,7 +52,9 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     assert data["amplitude"].attrs["units"] == "m"
     code, out, errors = run("moved", "--vary", "amplitude=0.1g:0.2g", "--refine", "0")
     assert (code, out) == (2, "")
-    assert errors.startswith("vibroimpact: error: --vary: amplitude: '0.1g' is a mass; a length")
+    assert errors.startswith(
+        "vibroimpact: error: --vary: amplitude: '0.1g' is a mass; use a length"
+    )
     assert errors.count("\n") == 1
 
 

@@ -123,10 +123,10 @@ def test_gravity():
     ("options", "message"),
     [
         ({"mass": "-5kg"}, "--set: mass: '-5kg' is not greater than 0"),
-        ({"mass": "5m"}, "--set: mass: '5m' is a length; a mass"),
+        ({"mass": "5m"}, "--set: mass: '5m' is a length; use a mass"),
         ({"isolator.stiffness": "nan"}, "--set: isolator.stiffness: 'nan' is not finite"),
         ({"isolator.damping": "-1"}, "--set: isolator.damping: '-1' is less than 0"),
-        ({"gap": "15 kg"}, "gap: '15 kg' is a mass; a length is accepted"),
+        ({"gap": "15 kg"}, "gap: '15 kg' is a mass; use a length"),
         ({"stops.right.damping": "-1"}, "--set: right.damping: '-1' is less than 0"),
         ({"stops.stiffness": "0"}, "--set: right.stiffness: '0' is not greater than 0"),
         ({"amplitude": "0g"}, "--amplitude: 0; set it in the study, or pass"),
@@ -135,7 +135,7 @@ def test_gravity():
             {"left.gap": "1mm", "left": "none"},
             "--set: left.gap: left is set, too; remove one of the two",
         ),
-        ({"nothing": "1"}, "--set: 'nothing' is unknown; one of frequency, .*isolator.stiffness"),
+        ({"nothing": "1"}, "--set: 'nothing' is unknown; use frequency, .*isolator.stiffness"),
         ({"stiffness": "1"}, "--set: 'stiffness' is not a path; use 'isolator.stiffness' or"),
         ({"frequency": "1Hz"}, "use --frequency"),
         ({"right.gap": ""}, "pass PATH=VALUE in one word, such as gap=9mm"),
@@ -163,7 +163,9 @@ def test_options_are_read_by_the_laws_of_the_rig():
     )
     assert made.isolator == fluid.isolator.replace(damping=2e3)
     assert made.right == HERTZ.replace(stiffness=3e9)
-    with pytest.raises(vi.InputError, match=r"damping: '2 kN s/m' is a damping; a damping in N"):
+    with pytest.raises(
+        vi.InputError, match=r"damping: '2 kN s/m' is a damping; use a damping in N"
+    ):
         changed(fluid, of(**{"isolator.damping": "2 kN s/m"}))
     with pytest.raises(vi.InputError, match=r"--set: right.stiffness: '1 MN/m' is a stiffness"):
         changed(fluid, of(**{"stops.stiffness": "1 MN/m"}))
@@ -261,14 +263,14 @@ def test_a_weight_stands_for_a_mass():
             {"weight": "1 N", "mass": "1"},
             "--set: weight and mass set the same quantity; remove one of the two",
         ),
-        ({"isolator_period": "2 Hz"}, "--set: isolator_period: '2 Hz' is a frequency; a time"),
+        ({"isolator_period": "2 Hz"}, "--set: isolator_period: '2 Hz' is a frequency; use a time"),
         ({"damping_ratio": "-1"}, "--set: damping_ratio: '-1' is less than 0"),
-        ({"weight": "5 t"}, "--set: weight: '5 t' is a mass; a force greater than 0"),
+        ({"weight": "5 t"}, "--set: weight: '5 t' is a mass; use a force greater than 0"),
         (
             {"mass": "5000g"},
             "--set: mass: '5000g' has a g, which is gravity here; write gram, kg or t",
         ),
-        ({"mass": "50MN"}, "--set: mass: '50MN' is a force, the weight of 5098.58 t; a mass"),
+        ({"mass": "50MN"}, "--set: mass: '50MN' is a force, the weight of 5098.58 t; use a mass"),
     ],
 )
 def test_two_ways_at_once_are_refused(options, message):

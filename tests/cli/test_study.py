@@ -114,7 +114,7 @@ def test_all_unknown_keys_are_named_and_no_class_of_python(write):
     told = str(caught.value)
     for key, meant in (("sweep.stepp", "step"), ("simulate.frequncy", "frequency")):
         assert f"{key}: unknown key; " in told
-        assert f"; did you mean {meant}?" in told
+        assert f"; did you mean {meant}? Use " in told
     assert "form: unknown key; " in told
     for name in ("SweepTable", "SimulateTable", "Study", "ExcitationTable", "Oscillator"):
         assert name not in told
@@ -137,25 +137,26 @@ def test_a_study_needs_no_ending(write):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('case = "B2-G1-A3"\n[sweep]\nform = 1', r"sweep.form: unknown key; .*did you mean from\?"),
-        (RIG.replace("mass", "mas"), r"oscillator.mas: unknown key; .*did you mean mass\?"),
+        ('case = "B2-G1-A3"\n[sweep]\nform = 1', r"sweep.form: unknown key; did you mean from\?"),
+        (RIG.replace("mass", "mas"), r"oscillator.mas: unknown key; did you mean mass\?"),
         (
             RIG + '[oscillator.stops.right]\ngap = "7 mm"',
-            r"oscillator.stops: unknown key; .*; write each stop as right or left, such as the "
+            r"oscillator.stops: unknown key; write each stop as right or left, such as the "
             r"table \[oscillator.right\]",
         ),
-        (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; .*did you mean gap\?"),
+        (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; did you mean gap\?"),
         (
             RIG.replace("7.5 mm", "15 kg"),
-            r"oscillator.right.gap: '15 kg' is a mass; a length is accepted",
+            r"oscillator.right.gap: '15 kg' is a mass; use a length",
         ),
         (
             RIG + 'left = { kind = "hertz" }',
-            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', .* is accepted",
+            r"oscillator.left.kind: 'hertz' is unknown; use 'kelvin-voigt', 'rigid', ",
         ),
         (
             RIG.replace('stiffness = "26.8 kN/m"', 'period = "2 s"'),
-            r"oscillator.isolator.damping_ratio: missing, but period requires it; a dimensionless",
+            r"oscillator.isolator.damping_ratio: missing, but period requires it; add a "
+            r"dimensionless",
         ),
         (
             RIG.replace("damping =", 'period = "2 s", damping_ratio = 0.1, damping =', 1),
@@ -280,7 +281,11 @@ class TestWhatShakes:
             ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),
             ("", "0.1\n0.2", r"excitation.step: missing, but .* has no times"),
             ("", "0,1\n0,2", r"its rows of 2 numbers have neither names nor times"),
-            ('step = 1\nunit = "N"', "0.1\n0.2", r"excitation.unit: '1 N' is a force; an acceler"),
+            (
+                'step = 1\nunit = "N"',
+                "0.1\n0.2",
+                r"excitation.unit: '1 N' is a force; use an acceler",
+            ),
             (
                 'step = 1\nunit = "mm"',
                 "\n".join("0" * 20 + "5" * 20),
@@ -310,8 +315,14 @@ class TestWhatShakes:
                 'amplitudes = ["1 mm", "2 mm"]\nphases = [0.0]',
                 r"phases: 1 given for 2 amplitudes",
             ),
-            ('amplitudes = ["0.05 g", "20 N"]', r"amplitudes\[1\]: '20 N' is a force; an acceler"),
-            ('amplitude = "3 kg"', r"amplitude: '3 kg' is a mass; an acceleration greater than 0"),
+            (
+                'amplitudes = ["0.05 g", "20 N"]',
+                r"amplitudes\[1\]: '20 N' is a force; use an acceler",
+            ),
+            (
+                'amplitude = "3 kg"',
+                r"amplitude: '3 kg' is a mass; use an acceleration greater than 0",
+            ),
             ("phases = [0.0]\namplitude = 1", r"phases is given without amplitudes"),
         ],
     )

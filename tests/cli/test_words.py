@@ -94,23 +94,26 @@ def test_options_are_named_as_they_are_written(refused, words, begins):
 def test_quantities_that_another_option_states(refused, words, advice):
     told = refused("sweep", CASE, *words)
     name = words[0].partition("=")[0]
-    assert told == f"Unknown option: {name}; {advice}; --help lists what is accepted"
+    assert told == f"Unknown option: {name}; {advice}; see --help"
 
 
 def test_only_options_of_the_command_are_recommended(refused):
     assert "--amplitude" not in refused("record", "quake.csv", "--force", "450N")
 
 
+def test_a_suggestion_ends_its_sentence(refused):
+    told = refused("sweep", CASE, "--directio", "forward")
+    assert told.endswith("Did you mean --direction? See --help")
+
+
 def test_unused_words_are_told_plainly(refused):
-    assert refused("sweep", CASE, "more") == (
-        "'more' is one word too many; --help lists what is accepted"
-    )
+    assert refused("sweep", CASE, "more") == ("'more' is one word too many; see --help")
 
 
 def test_an_unknown_command_lists_all_of_them(refused):
     line = refused("swep")
     assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
-    listed = line.partition("? ")[2].partition(" are accepted")[0].split(", ")
+    listed = line.partition("? Use ")[2].partition("; ")[0].replace(" or ", ", ").split(", ")
     assert len(listed) == 20
     assert set(listed) == {name for name in _app() if not name.startswith("-")}
 

@@ -105,11 +105,11 @@ def test_wrong_input() -> None:
         ({}, "^vary: 'frequency' is missing; an Assembly has several resonances"),
         (
             {"records": RECORDS, "limits": {"penetration": 0.1}},
-            "^limits: 'penetration'; one of peak_displacement",
+            "^limits: 'penetration' is unknown; use peak_displacement",
         ),
         (
             {"vary": {**VARY, "frequency": (1, 2)}, "limits": {"peak_drift": 0.1}},
-            "^limits: 'peak_drift'; ",
+            "^limits: 'peak_drift' is unknown; ",
         ),
     ):
         with pytest.raises(vi.InputError, match=line):
@@ -146,7 +146,9 @@ def test_a_limit_of_one_part() -> None:
     excess, *others = excesses(found)
     assert not others
     np.testing.assert_array_equal(excess <= 0.0, found["within_limits"])
-    with pytest.raises(vi.InputError, match=r"limits: 'peak_drift\.attic'; .* peak_drift\.storey"):
+    with pytest.raises(
+        vi.InputError, match=r"limits: 'peak_drift\.attic' is unknown; .* peak_drift\.storey"
+    ):
         vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak_drift.attic": 1.0})
 
 

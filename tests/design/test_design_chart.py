@@ -176,7 +176,7 @@ def test_what_has_no_bound_is_infinite() -> None:
     ("arguments", "line"),
     [
         ({"vary": {}}, "vary: no parameter; pass a dict of values by parameter, with at least one"),
-        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of frequency, "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; use frequency, "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
@@ -209,7 +209,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ),
         ({"records": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
         ({"step": 0.0}, "step: 0"),
-        ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
+        ({"limits": {"speed": 1.0}}, "limits: 'speed' is unknown; use peak_displacement, "),
         ({"records": RECORDS, "tail": -1.0}, "tail: -1"),
         ({"threads": 0}, "threads: 0"),
         ({"rig": 3}, "rig: 3"),
@@ -225,7 +225,7 @@ def test_wrong_input(arguments: dict, line: str) -> None:
 
 def test_a_sweep_of_too_many_frequencies_is_refused_before_it_is_made() -> None:
     heavy = vi.Oscillator(1e30, vi.Isolator(1.0, 1.0), right=vi.Bumper(1e4, 1.0, 0.01))
-    with pytest.raises(vi.InputError, match=r"step: .* gives .* frequencies .* at most 100000"):
+    with pytest.raises(vi.InputError, match=r"step: .* gives .* frequencies .* more than 100000"):
         vi.design_chart(vi.Rig(heavy, 0.5), {"gap": [0.01], "frequency": (1.0, 2.0)})
 
 

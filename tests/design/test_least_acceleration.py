@@ -113,7 +113,7 @@ def test_it_is_repeatable() -> None:
         ({"vary": {"length": (1.0, 2.0)}}, "vary: 'length'"),
         ({"vary": {"frequency": (1.0, 2.0)}}, "vary: 'frequency' depends on the shaking"),
         ({"gap": "3 kg"}, "gap: '3 kg'"),
-        ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
+        ({"limits": {"speed": 1.0}}, "limits: 'speed' is unknown; use peak_displacement, "),
         ({"limits": {"peak_force": "3 m"}}, r"limits\['peak_force'\]: '3 m'"),
         (
             {"limits": {"peak_displacement": 1e-4}},

@@ -204,7 +204,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"vary": {"gap": []}}, r"vary\['gap'\]: the list is empty"),
         ({"vary": {"gap": [0.01, 0.01]}}, r"vary\['gap'\]: 10 mm is given twice"),
         ({"vary": {"gap": ["1 kg"]}}, r"vary\['gap'\]\[0\]: "),
-        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; use "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",

@@ -64,7 +64,7 @@ def test_wrong_input() -> None:
     data = lognormal(np.random.default_rng(1), 5, SCALES, 0.5)
     for ask, line in (
         (lambda: vi.fractiles(3), "demands: 3; pass the result of the function demands"),
-        (lambda: vi.fractiles(data, "peak"), "quantity: 'peak'; one of peak_displacement is"),
+        (lambda: vi.fractiles(data, "peak"), "quantity: 'peak' is unknown; use peak_displacement"),
         (lambda: vi.fractiles(data, shares=(1.2,)), r"shares\[0\]: 1.2"),
         (lambda: vi.fractiles(data, shares=()), "shares: the list is empty"),
         (lambda: vi.exceedance(data, "peak_displacement", "3 kg"), "limit: '3 kg'"),

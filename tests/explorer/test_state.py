@@ -98,9 +98,9 @@ def test_the_unit_of_an_amplitude_selects_the_excitation(text, of, size):
         ("mass", "-3", "greater than 0"),
         ("amplitude", "0", "greater than 0"),
         ("stops.nonsense", "1", "nonsense"),
-        ("__class__", "1", "is unknown; one of"),
-        ("right.gap.real", "1", "is unknown; one of"),
-        ("isolator.kind", "friction", "is unknown; one of"),
+        ("__class__", "1", "is unknown; use"),
+        ("right.gap.real", "1", "is unknown; use"),
+        ("isolator.kind", "friction", "is unknown; use"),
         ("stops.stiffness_ratio", "soft", "does not start with a number"),
     ],
 )

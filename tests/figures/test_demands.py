@@ -159,6 +159,6 @@ def test_what_are_no_axes_is_refused() -> None:
         incremental_curves(data, "peak_force")
     found = vi.fragility(data, "peak_displacement", 1.0)
     with pytest.raises(
-        vi.InputError, match=r"^ax: 3 is not an Axes of matplotlib; an Axes or None is accepted"
+        vi.InputError, match=r"^ax: 3 is not an Axes of matplotlib; pass an Axes or None"
     ):
         fragility_curves(found, 3)

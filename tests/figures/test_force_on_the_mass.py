@@ -68,7 +68,7 @@ def test_a_history_has_a_panel_of_the_transmitted_force() -> None:
         for value in motion()[f"event_transmitted_force_{when}"].values:
             assert np.abs(drawn - 1e-3 * value).min() < 1e-12
     assert "force on the mass" in [t.get_text() for t in axes[0].get_legend().get_texts()]
-    with pytest.raises(vi.InputError, match=r"axes: 3 given; 4 are accepted \(.*transmitted force"):
+    with pytest.raises(vi.InputError, match=r"axes: 3 Axes; pass 4 \(.*transmitted force"):
         time_history(motion(), axes[:3])
 
 

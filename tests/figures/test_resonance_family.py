@@ -95,11 +95,10 @@ class TestFamily:
     @pytest.mark.parametrize(
         ("options", "told"),
         [
-            ({"quantity": "eta"}, "quantity: 'eta'; one of eta_a, eta_d"),
+            ({"quantity": "eta"}, "quantity: 'eta' is unknown; use eta_a, eta_d"),
             (
                 {"labels": {"B1": "x"}},
-                "labels: 'B1' is not a rig of data; the names of its rigs are accepted: B2-G1-A3, "
-                "B2-G3-A3",
+                "labels: 'B1' is not a rig of data; use B2-G1-A3, B2-G3-A3",
             ),
             ({"colours": {"B1": "red"}}, "colours: 'B1' is not a rig of data"),
         ],
@@ -130,7 +129,7 @@ class TestMarks:
         ax = Figure().subplots()
         ax.set_xlim(0.5, 5.0)
         with pytest.raises(
-            vi.InputError, match=r"frequencies\['I'\]: .* from 0.5 to 5 Hz is accepted"
+            vi.InputError, match=r"frequencies\['I'\]: .*; use a frequency from 0.5 to 5 Hz"
         ):
             frequency_marks(ax, {"I": value})
         assert not ax.lines

@@ -122,7 +122,7 @@ def test_what_cannot_be_drawn_is_refused():
         scenario_map(xr.Dataset())
     with pytest.raises(vi.InputError, match="border: its parameters are not stiffness_ratio and"):
         scenario_map(made(), border=xr.Dataset())
-    with pytest.raises(vi.InputError, match="name: 'nothing'; one of chaotic_count is accepted"):
+    with pytest.raises(vi.InputError, match="name: 'nothing' is unknown; use chaotic_count"):
         feature_map(made(), "nothing")
     with pytest.raises(vi.InputError, match="found: 'B5-G1-A1' is not a laboratory test"):
         scenario_cases({"B5-G1-A1": "S2"})

@@ -141,7 +141,7 @@ def test_a_logarithmic_axis():
         (lambda: xr.Dataset(), {}, "data: this is not a bifurcation diagram"),
         (lambda: diagram(), {"quantity": "contact_start_phase"}, "quantity: "),
         (lambda: diagram(), {"branches": diagram().assign_attrs(parameter="mass")}, "branches: "),
-        (lambda: diagram(), {"axes": [None]}, "axes: 1 given"),
+        (lambda: diagram(), {"axes": [None]}, "axes: 1 Axes; pass 3"),
     ],
 )
 def test_refused(data, options, told):

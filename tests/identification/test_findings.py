@@ -201,7 +201,7 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
         ({"free": {"gap": [1, 2, 3]}}, "a range (low, high)"),
         ({"free": {"gap": b"1"}}, "free['gap'].start"),
         ({"free": {"stops.stiffness": 0.0}}, "is not greater than 0"),
-        ({"priors": {"gap": 3}}, "priors['gap']: 3; a pair (mean, standard deviation)"),
+        ({"priors": {"gap": 3}}, "priors['gap']: 3; pass a pair (mean, standard deviation)"),
         ({"priors": {"gap": "10 mm"}}, "(mean, standard deviation)"),
         ({"priors": {"gap": ("10 mm", 0)}}, "is not greater than 0"),
         ({"each": "isolator.damping"}, "each: 'isolator.damping' is not free"),

@@ -301,7 +301,9 @@ def test_columns_and_units_that_are_said(tmp_path):
     )
     assert data.displacement_excursion.sel(direction="backward").values.tolist() == [0.05, 0.06]
     assert data.attrs["amplitude"] == pytest.approx(0.03 * 9.80665)
-    with pytest.raises(vi.InputError, match="columns: 'frequenzy'; did you mean frequency"):
+    with pytest.raises(
+        vi.InputError, match="columns: 'frequenzy' is unknown; did you mean frequency"
+    ):
         vi.read_measurement(path, columns={"frequenzy": "one"})
     with pytest.raises(vi.InputError, match="is not a column"):
         vi.read_measurement(path, columns={"frequency": "four"})

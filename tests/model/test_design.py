@@ -110,11 +110,11 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
     [
         (
             {"period": "2.5 s"},
-            "damping_ratio: missing, but period requires it; a dimensionless number",
+            "damping_ratio: missing, but period requires it; add a dimensionless number",
         ),
         (
             {"damping_ratio": 0.1},
-            "period: missing, but damping_ratio requires it; a time greater than 0",
+            "period: missing, but damping_ratio requires it; add a time greater than 0",
         ),
         (
             {"period": 2, "damping_ratio": 0.1, "stiffness": 3},
@@ -128,15 +128,21 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
             {"period": 2, "damping_ratio": 0.1, "damping_exponent": 2},
             "damping_exponent: given together with period",
         ),
-        ({"period": "2 Hz", "damping_ratio": 0.1}, "period: '2 Hz' is a frequency; a time gr"),
-        ({"period": 0, "damping_ratio": 0.1}, "period: 0 is not greater than 0; a time"),
+        ({"period": "2 Hz", "damping_ratio": 0.1}, "period: '2 Hz' is a frequency; use a time gr"),
+        ({"period": 0, "damping_ratio": 0.1}, "period: 0 is not greater than 0; use a time"),
         ({"period": 2, "damping_ratio": -0.1}, "damping_ratio: -0.1 is less than 0"),
-        ({"period": 2, "damping_ratio": 0.1, "dampin": 3}, "dampin: unknown key; stiffness, "),
-        ({"kind": "bilinear", "period": 2}, "period: unknown key; elastic_stiffness, post_yield_"),
+        (
+            {"period": 2, "damping_ratio": 0.1, "dampin": 3},
+            "dampin: unknown key; did you mean damping? Use stiffness, ",
+        ),
+        (
+            {"kind": "bilinear", "period": 2},
+            "period: unknown key; use elastic_stiffness, post_yield_",
+        ),
         ({"kind": "friction", "radius": 2}, "coefficient: missing, but radius requires it"),
         (
             {"kind": "bilinear", "strength": 5e5, "yield_displacement": 1, "post_yield_period": 1},
-            "strength: 500000.0 times the weight; a share of the weight up to 1, such as 0.05",
+            "strength: 500000.0 times the weight; use a share of the weight up to 1, such as 0.05",
         ),
         (
             {
@@ -175,7 +181,9 @@ def test_a_weight_is_a_mass_under_gravity():
         vi.InputError, match=r"^weight: given together with mass; remove one of the two"
     ):
         vi.Oscillator.model_validate({**table, "mass": 5})
-    with pytest.raises(vi.InputError, match=r"^weight: '5 t' is a mass; a force greater than 0"):
+    with pytest.raises(
+        vi.InputError, match=r"^weight: '5 t' is a mass; use a force greater than 0"
+    ):
         vi.Oscillator.model_validate({**table, "weight": "5 t"})
 
 

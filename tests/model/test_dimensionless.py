@@ -109,7 +109,7 @@ def test_a_group_prints():
 @pytest.mark.parametrize("damping_ratio", [0.0, math.sqrt(0.5), 1.0])
 def test_without_a_resonance_peak_a_gap_has_no_scale(damping_ratio):
     with pytest.raises(
-        InputError, match=r"^damping_ratio: .* greater than 0 and less than 0.707107 is accepted"
+        InputError, match=r"^damping_ratio: .* use .* greater than 0 and less than 0.707107"
     ):
         from_dimensionless(20.0, 0.5, 0.01, damping_ratio)
     oscillator = Oscillator(1.0, Isolator(1.0, 2.0 * damping_ratio), Bumper(1.0, 0.0, 1.0))
@@ -141,7 +141,7 @@ def test_without_excitation_a_gap_has_no_scale():
         ((1.0, 0.5, -0.01, 0.15), r"^right\.relaxation_time: -0.01 is less than 0"),
         ((1.0, 0.5, 0.01, -0.15), r"^damping_ratio: -0.15 is less than 0"),
         ((1.0, 0.5, 0.01, math.nan), r"^damping_ratio: nan is not finite"),
-        ((1.0, "5 mm", 0.01, 0.15), r"^right\.gap: '5 mm' is a length; a dimensionless number"),
+        ((1.0, "5 mm", 0.01, 0.15), r"^right\.gap: '5 mm' is a length; use a dimensionless number"),
         ((1.0, None, 0.01, 0.15), r"^right\.gap: None is not a number"),
         (((1.0, 2.0, 3.0), 0.5, 0.01, 0.15), r"^stiffness_ratio: .* a pair \(right, left\)"),
     ],

@@ -15,19 +15,19 @@ def test_an_angular_frequency_is_converted():
 
 @pytest.mark.parametrize("bad", [0, 0.0, -2.5, "-2.5 Hz", math.nan, math.inf, "2.5 mm", False, ""])
 def test_a_frequency_is_positive(bad):
-    with pytest.raises(InputError, match=r"^frequency: .*; a frequency greater than 0 is accepted"):
+    with pytest.raises(InputError, match=r"^frequency: .*; use a frequency greater than 0"):
         Harmonic(1.0, bad)
 
 
 @pytest.mark.parametrize("bad", [-1.0, "-0.05 g", math.nan, "0.05 kg", None])
 def test_an_amplitude_is_not_negative(bad):
-    with pytest.raises(InputError, match=r"^amplitude: .*; an acceleration of at least 0"):
+    with pytest.raises(InputError, match=r"^amplitude: .*; use an acceleration of at least 0"):
         Harmonic(bad, 1.0)
 
 
 @pytest.mark.parametrize("bad", [math.inf, "1 mm", True])
 def test_a_phase_is_a_finite_angle(bad):
-    with pytest.raises(InputError, match=r"^phase: .*; an angle is accepted"):
+    with pytest.raises(InputError, match=r"^phase: .*; use an angle"):
         Harmonic(1.0, 1.0, bad)
 
 
@@ -126,8 +126,8 @@ def test_there_and_back(one):
     [
         (lambda: Periodic(1.0, (1.0, 2.0), (0.0,)), "phases: 1 given for 2 amplitudes; "),
         (lambda: Periodic(1.0, (1.0,), (0.0, 1.0)), "phases: 2 given for 1 amplitude; "),
-        (lambda: Periodic(1.0, ()), "amplitudes: 0 given; 1 to 32"),
-        (lambda: Periodic(1.0, [1.0] * 33), "amplitudes: 33 given; 1 to 32"),
+        (lambda: Periodic(1.0, ()), "amplitudes: 0 harmonics; pass 1 to 32"),
+        (lambda: Periodic(1.0, [1.0] * 33), "amplitudes: 33 harmonics; pass 1 to 32"),
         (lambda: Periodic(1.0, (0.0, 0.0)), r"amplitudes: \[0.0, 0.0\] are all 0"),
         (lambda: Periodic(1.0, ("5 mm", "1 N")), r"amplitudes\[1\]: "),
         (lambda: Periodic(1.0, (1.0, math.nan)), r"amplitudes\[1\]: "),

@@ -72,7 +72,9 @@ def test_units_follow_the_exponent():
     assert "damping=3 kN (s/m)^0.5, damping_exponent=0.5" in str(fluid)
     assert vi.Isolator(1.0, "2 N s^2/m^2", 2).damping == 2.0
     assert vi.FrictionIsolator(1.0, "2 N (s/m)^0.333333", 3, 1 / 3).damping == 2.0
-    with pytest.raises(vi.InputError, match=r"^damping: '3 kN s/m' is a damping; a damping in N"):
+    with pytest.raises(
+        vi.InputError, match=r"^damping: '3 kN s/m' is a damping; use a damping in N"
+    ):
         vi.Isolator(1.0, "3 kN s/m", 0.5)
     with pytest.raises(vi.InputError, match=r"^rig\.isolator\.damping_exponent: 0 is not greater"):
         of("linear", damping_exponent=0)
@@ -90,29 +92,41 @@ def test_a_friction_pendulum():
 @pytest.mark.parametrize(
     ("kind", "changes", "message"),
     [
-        ("friction", {"friction": -1}, "friction: -1 is less than 0; a force of at least 0"),
-        ("bilinear", {"yield_force": "-1 kN"}, "yield_force: '-1 kN' is not greater than 0; a for"),
-        ("bouc-wen", {"yield_force": 0}, "yield_force: 0 is not greater than 0; a force"),
+        ("friction", {"friction": -1}, "friction: -1 is less than 0; use a force of at least 0"),
+        (
+            "bilinear",
+            {"yield_force": "-1 kN"},
+            "yield_force: '-1 kN' is not greater than 0; use a for",
+        ),
+        ("bouc-wen", {"yield_force": 0}, "yield_force: 0 is not greater than 0; use a force"),
         (
             "bilinear",
             {"post_yield_stiffness": "1 MN/m"},
             "post_yield_stiffness: 1000 kN/m is greater than elastic_stiffness, 500 kN/m; re",
         ),
         ("bouc-wen", {"post_yield_stiffness": 1e6}, "post_yield_stiffness: 1000 kN/m is greater"),
-        ("bouc-wen", {"exponent": 1.5}, "exponent: 1.5; a whole number from 1 to 100 is accepted"),
-        ("bouc-wen", {"exponent": 0}, "exponent: 0; a whole number from 1"),
-        ("bouc-wen", {"exponent": "two"}, "exponent: 'two'; a whole number"),
-        ("bouc-wen", {"exponent": True}, "exponent: True; a whole number"),
+        ("bouc-wen", {"exponent": 1.5}, "exponent: 1.5; use a whole number from 1 to 100"),
+        ("bouc-wen", {"exponent": 0}, "exponent: 0; use a whole number from 1"),
+        ("bouc-wen", {"exponent": "two"}, "exponent: 'two'; use a whole number"),
+        ("bouc-wen", {"exponent": True}, "exponent: True; use a whole number"),
         ("bouc-wen", {"beta": -0.1}, "beta: -0.1 is less than 0"),
         ("bouc-wen", {"gamma": -0.6}, "gamma: -0.6 plus beta, 0.6, is not greater than 0"),
-        ("exponential", {"decay": 0}, "decay: 0 is not greater than 0; an inverse length"),
+        ("exponential", {"decay": 0}, "decay: 0 is not greater than 0; use an inverse length"),
         (
             "exponential",
             {"final_stiffness": 1e6},
             "final_stiffness: 1000 kN/m is greater than reversal_stiffness, 500 kN/m",
         ),
-        ("polynomial", {"cubic": "3 N/m"}, "cubic: '3 N/m' is a stiffness; a stiffness in N/m³ is"),
-        ("friction", {"yield_force": 3}, "yield_force: unknown key; stiffness, damping, friction"),
+        (
+            "polynomial",
+            {"cubic": "3 N/m"},
+            "cubic: '3 N/m' is a stiffness; use a stiffness in N/m³",
+        ),
+        (
+            "friction",
+            {"yield_force": 3},
+            "yield_force: unknown key; use stiffness, damping, friction",
+        ),
     ],
 )
 def test_bad_input_is_told_in_one_line(kind, changes, message):

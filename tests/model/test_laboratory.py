@@ -143,23 +143,26 @@ class TestCode:
         ("code", "words"),
         [
             ("", "B1 to B4"),
-            ("B2", "bumper-gap-acceleration is accepted, such as B2-G1-A3"),
+            ("B2", "use bumper-gap-acceleration, such as B2-G1-A3"),
             ("B2-G1", "G1 to G4"),
             ("B2-G1-A3-A3", "A1 to A3"),
             ("B2-G1-", "is not a case code"),
             ("B2--G1-A3", "gap: '-G1'"),
-            ("B5-G1-A3", "bumper 'B5' is unknown; B1, B2, B3, B4 or a stiffness such as 510kN/m"),
-            ("B2-G9-A3", "gap 'G9' is unknown; G1, G2, G3, G4, Ginf or a length such as 15mm"),
-            ("B2-G1-A4", "acceleration 'A4' is unknown; A1, A2, A3 or an acceleration such as"),
+            (
+                "B5-G1-A3",
+                "bumper 'B5' is unknown; use B1, B2, B3, B4 or a stiffness such as 510kN/m",
+            ),
+            ("B2-G9-A3", "gap 'G9' is unknown; use G1, G2, G3, G4, Ginf or a length such as 15mm"),
+            ("B2-G1-A4", "acceleration 'A4' is unknown; use A1, A2, A3 or an acceleration such as"),
             ("G1-B2-A3", "bumper 'G1' is unknown"),
             ("B2-10-A3", "gap '10' has no unit"),
             ("510000-G1-A3", "bumper '510000' has no unit"),
-            ("B2-15kg-A3", "gap: '15kg' is a mass; a length"),
+            ("B2-15kg-A3", "gap: '15kg' is a mass; use a length"),
             ("B2--10mm-A3", "gap: '-10mm' is less than 0"),
             ("0N/m-G1-A3", "bumper: '0N/m' is not greater than 0"),
             ("B2-G1-0g", "acceleration: '0g' is not greater than 0"),
             ("B2-G1-0.06g", "acceleration '0.06g' is outside the tested range"),
-            ("B2-G1-0.02g", "from 0.03g to 0.05g is accepted"),
+            ("B2-G1-0.02g", "use an acceleration from 0.03g to 0.05g"),
             ("B2-G1\n-A9", "acceleration 'A9' is unknown"),
         ],
     )
@@ -187,7 +190,7 @@ class TestParameters:
     @pytest.mark.parametrize("parameters", ["fitted", "", None, "TABLE"])
     def test_an_unknown_set_is_refused(self, parameters):
         with pytest.raises(
-            InputError, match=r"^parameters: .* 'table', 'identified' or 'refined' is accepted"
+            InputError, match=r"^parameters: .* use 'table', 'identified' or 'refined'"
         ):
             laboratory.case("B2-G1-A3", parameters)
 

@@ -30,14 +30,14 @@ def test_a_mass_or_a_stiffness_is_positive_and_finite(bad):
         lambda: Oscillator(bad, ISOLATOR),
         lambda: Bumper(bad, 0.0, 0.0),
     ):
-        with pytest.raises(InputError, match=r"^(mass|stiffness): .* greater than 0 is accepted"):
+        with pytest.raises(InputError, match=r"^(mass|stiffness): .*; use .* greater than 0"):
             make()
 
 
 @pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf, "", True, None, "1 K"])
 def test_the_stiffness_of_an_isolator_may_be_0(bad):
     assert Isolator(0.0, 0.0).stiffness == 0.0
-    with pytest.raises(InputError, match=r"^stiffness: .* of at least 0 is accepted"):
+    with pytest.raises(InputError, match=r"^stiffness: .*; use .* of at least 0"):
         Isolator(bad, 0.0)
 
 
@@ -62,26 +62,28 @@ def test_what_needs_a_spring_says_so(what):
 @pytest.mark.parametrize("bad", [-1e-300, math.nan, -math.inf, "-1", True, None, "1 K"])
 def test_a_damping_is_not_negative(bad):
     for make in (lambda: Isolator(1.0, bad), lambda: Bumper(1.0, bad, 0.0)):
-        with pytest.raises(InputError, match=r"^damping: .* of at least 0 is accepted"):
+        with pytest.raises(InputError, match=r"^damping: .*; use .* of at least 0"):
             make()
 
 
 @pytest.mark.parametrize("bad", [math.nan, -math.inf, "", True, None, "1 K"])
 def test_a_gap_is_finite(bad):
     for make in (lambda: Bumper(1.0, 0.0, bad), lambda: RigidStop(1.0, bad)):
-        with pytest.raises(InputError, match=r"^gap: .* a length is accepted"):
+        with pytest.raises(InputError, match=r"^gap: .*; use a length"):
             make()
 
 
 @pytest.mark.parametrize("bad", [-0.1, 1.1, math.nan, True, None, "1 m"])
 def test_a_restitution_lies_between_0_and_1(bad):
-    with pytest.raises(InputError, match=r"^restitution: .* from 0 to 1 is accepted"):
+    with pytest.raises(InputError, match=r"^restitution: .*; use .* from 0 to 1"):
         RigidStop(bad, 0.0)
 
 
 @pytest.mark.parametrize(("right", "left"), [(0.0, 0.0), (-0.001, 0.001), (0.002, -0.003)])
 def test_two_rigid_stops_need_room(right, left):
-    with pytest.raises(InputError, match=r"right.gap: .* leave no room .* greater than 0 are acc"):
+    with pytest.raises(
+        InputError, match=r"right.gap: .* leave no room .*; use gaps .* greater than 0"
+    ):
         Oscillator(1.0, ISOLATOR, RigidStop(0.5, right), RigidStop(0.5, left))
     # A bumper gives way.
     Oscillator(1.0, ISOLATOR, RigidStop(0.5, right), Bumper(1.0, 0.0, left))
@@ -95,11 +97,9 @@ def test_a_symmetric_rig_has_equal_stops_of_one_kind():
 
 
 def test_an_unknown_argument_is_refused():
-    with pytest.raises(
-        InputError, match=r"^colour: unknown key; stiffness, damping and gap are acc"
-    ):
+    with pytest.raises(InputError, match=r"^colour: unknown key; use stiffness, damping or gap"):
         Bumper(1.0, 1.0, 0.0, colour="red")
-    with pytest.raises(InputError, match=r"^dampng: .*; did you mean damping\?$"):
+    with pytest.raises(InputError, match=r"^dampng: .*; did you mean damping\? Use stiffness, "):
         Isolator(1.0, dampng=0.0)
     with pytest.raises(TypeError, match="damping"):
         Isolator(1.0)

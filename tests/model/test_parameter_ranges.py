@@ -59,7 +59,7 @@ def test_what_is_not_a_mapping_of_names_is_refused(vary):
             {"gap": (1.0, 1.0)},
             r"^vary\['gap'\]: the first value, 1 m, is not below the second, 1 m",
         ),
-        ({"gap": ("1 kg", 0.01)}, r"^vary\['gap'\]\[0\]: '1 kg' is a mass; a length is accepted"),
+        ({"gap": ("1 kg", 0.01)}, r"^vary\['gap'\]\[0\]: '1 kg' is a mass; use a length"),
         (
             {"gap": 0.01},
             r"^vary\['gap'\]: 0\.01; pass the lowest and the highest value of gap as \(",
@@ -91,7 +91,7 @@ def test_a_range_keeps_the_bounds_of_its_parameter():
         ({"amplitude": [1.0]}, "^vary: 'amplitude' is the shaking; remove it"),
         ({"gap": 0.1}, r"^vary\['gap'\]: 0\.1 is not a list; pass a list of values of gap"),
         ({"gap": []}, r"^vary\['gap'\]: the list is empty; pass at least one value of gap"),
-        ({"gap": ["1 mm", "2 kg"]}, r"^vary\['gap'\]\[1\]: '2 kg' is a mass; a length is accepted"),
+        ({"gap": ["1 mm", "2 kg"]}, r"^vary\['gap'\]\[1\]: '2 kg' is a mass; use a length"),
         ({"gap": [1e-3, "1 mm"]}, r"^vary\['gap'\]: 1 mm is given twice; remove one of the two"),
         ({"gap": [1, 2, 3, 4]}, r"^vary\['gap'\]: more than 3 items; pass at most 3"),
     ],

@@ -78,11 +78,9 @@ def test_names_and_units():
     assert parameter("gap", RIG).physical
     assert not parameter("gap-ratio", RIG).physical
     assert set(NAMES) <= set(PARAMETERS)
-    with pytest.raises(
-        vi.InputError, match=r"^along: 'xy' is unknown; one of frequency, .* is accepted$"
-    ):
+    with pytest.raises(vi.InputError, match=r"^along: 'xy' is unknown; use frequency, .* or "):
         parameter("xy", RIG, "along")
-    with pytest.raises(vi.InputError, match=r"did you mean stops.stiffness\? One of frequency, "):
+    with pytest.raises(vi.InputError, match=r"did you mean stops.stiffness\? Use frequency, "):
         parameter("Stops.stifness", RIG)
     with pytest.raises(vi.InputError, match=r"'right_gap' .*did you mean right.gap\?"):
         parameter("right_gap", RIG)
@@ -147,7 +145,7 @@ def test_values_are_set_at_once_and_an_absent_stop_is_made():
         set_values(start, {"left.stiffness": "1 MN/m", "left.gap": "1 mm"})
     with pytest.raises(vi.InputError, match=r"^right\.gap: '1 kg' is a mass"):
         set_values(rig, {"right.gap": "1 kg"})
-    with pytest.raises(vi.InputError, match=r"'isolator\.nothing' is unknown; one of frequency"):
+    with pytest.raises(vi.InputError, match=r"'isolator\.nothing' is unknown; use frequency"):
         set_values(rig, {"isolator.nothing": 1.0})
 
 
@@ -164,7 +162,9 @@ def test_sides_that_differ():
 
 @pytest.mark.parametrize("name", ["friction", "cubic", "decay", "dissipation", "left.mass"])
 def test_a_rig_without_it_is_refused_in_one_line(name):
-    with pytest.raises(vi.InputError, match=r"is not a parameter of this rig; .*one of") as caught:
+    with pytest.raises(
+        vi.InputError, match=r"is not a parameter of this rig; .*[uU]se frequency, "
+    ) as caught:
         parameter(name, RIG)
     assert "\n" not in str(caught.value)
 

@@ -56,7 +56,7 @@ def test_an_argument_is_what_its_check_returns():
         ({"size": "x"}, "size: 'x'; pass a whole number"),
         ({"size": 1, "share": 2}, "share: 2; pass a number between 0 and 1"),
         ({"size": 1, "log": 1}, "log: 1; pass True or False"),
-        ({"size": 1, "kind": "c"}, "kind: 'c'; one of a, b is accepted"),
+        ({"size": 1, "kind": "c"}, "kind: 'c' is unknown; use a or b"),
     ],
 )
 def test_an_error_names_the_argument(wrong, message):

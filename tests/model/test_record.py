@@ -175,14 +175,14 @@ def test_scaled_cut_and_levelled_say_so():
 @pytest.mark.parametrize(
     ("change", "line"),
     [
-        (lambda r: r.scaled(0), "scale: 0; a number other than 0"),
+        (lambda r: r.scaled(0), "scale: 0; use a number other than 0"),
         (lambda r: r.scaled(2, peak=1), "peak: 1 is given together with scale = 2;"),
         (lambda r: r.scaled(peak="-1 g"), "peak: '-1 g' is not greater than 0"),
         (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1 cannot be reached"),
         (lambda r: r.cut(2, 1), "end: 1 s leaves fewer than 2 samples after the start, 2 s"),
         (lambda r: r.cut(0, 99), "end: 99 is greater than 2.25"),
         (lambda r: r.cut(-1), "start: -1 is less than 0"),
-        (lambda r: r.levelled("parabola"), "baseline: 'parabola'; 'mean' or 'line' is accepted"),
+        (lambda r: r.levelled("parabola"), "baseline: 'parabola'; use 'mean' or 'line'"),
     ],
 )
 def test_changes_that_cannot_be_made(change, line):

@@ -101,7 +101,7 @@ def test_a_unit_contradicts_a_rig_without_units():
 
 
 def test_unknown_units_are_refused():
-    with pytest.raises(InputError, match=r"^units: 'cgs' is unknown; 'SI' or 'none' is accepted$"):
+    with pytest.raises(InputError, match=r"^units: 'cgs' is unknown; use 'SI' or 'none'$"):
         vi.Oscillator(1, SOFT, units="cgs")
 
 

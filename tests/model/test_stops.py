@@ -71,16 +71,27 @@ def test_a_power_bumper_of_every_way():
             {"dissipation": None, "restitution": 0},
             "restitution: 0 gives an infinite dissipation with the relation 'exact'; use a resti",
         ),
-        ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; a dissipation factor"),
+        ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; use a dissipation factor"),
         (
             "power",
             {"exponent": 0.5},
-            "exponent: 0.5 is less than 1; a dimensionless number of at least 1 is accepted, "
-            "such as 1.5",
+            "exponent: 0.5 is less than 1; use a dimensionless number of at least 1, such as 1.5",
         ),
-        ("power", {"stiffness": "3 kN/m"}, "stiffness: '3 kN/m' is a stiffness; a stiffness in N/"),
-        ("power", {"stiffness": 0}, "stiffness: 0 is not greater than 0; a stiffness in N/m^1.5"),
-        ("jankowski", {"restitution": 0}, "restitution: 0 is not greater than 0; a dimensionless"),
+        (
+            "power",
+            {"stiffness": "3 kN/m"},
+            "stiffness: '3 kN/m' is a stiffness; use a stiffness in N/",
+        ),
+        (
+            "power",
+            {"stiffness": 0},
+            "stiffness: 0 is not greater than 0; use a stiffness in N/m^1.5",
+        ),
+        (
+            "jankowski",
+            {"restitution": 0},
+            "restitution: 0 is not greater than 0; use a dimensionless",
+        ),
         ("jankowski", {"restitution": 1.2}, "restitution: 1.2 is greater than 1"),
         ("jankowski", {"mass": 0}, "mass: 0 is not greater than 0"),
     ],

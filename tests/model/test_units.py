@@ -171,7 +171,7 @@ def test_the_message_names_field_value_and_what_is_accepted():
     with pytest.raises(InputError) as caught:
         to_si("15 kg", LENGTH, "gap")
     assert str(caught.value) == (
-        "gap: '15 kg' is a mass; a length is accepted, such as \"15 mm\" or 0.015 (m)"
+        "gap: '15 kg' is a mass; use a length, such as \"15 mm\" or 0.015 (m)"
     )
 
 
@@ -251,7 +251,7 @@ def test_what_cannot_be_read_is_refused_in_one_line(value, quantity, words):
     message = str(caught.value)
     assert message.startswith("field: ")
     assert words in message
-    assert f"{quantity.phrase} is accepted, such as" in message
+    assert f"; use {quantity.phrase}, such as" in message
     assert "\n" not in message
     assert len(message) < 250
 
@@ -259,9 +259,9 @@ def test_what_cannot_be_read_is_refused_in_one_line(value, quantity, words):
 @pytest.mark.parametrize(
     ("value", "bounds", "words"),
     [
-        (0.0, {"above": 0.0}, "0.0 is not greater than 0; a length greater than 0 is accepted"),
-        ("-1 mm", {"minimum": 0.0}, "is less than 0; a length of at least 0 is accepted"),
-        (1.0, {"maximum": 0.0}, "is greater than 0; a length of at most 0 is accepted"),
+        (0.0, {"above": 0.0}, "0.0 is not greater than 0; use a length greater than 0"),
+        ("-1 mm", {"minimum": 0.0}, "is less than 0; use a length of at least 0"),
+        (1.0, {"maximum": 0.0}, "is greater than 0; use a length of at most 0"),
     ],
 )
 def test_bounds(value, bounds, words):

@@ -49,7 +49,7 @@ def test_segments_are_tests(tmp_path):
         vi.read_measurement(path)
     assert len(vi.read_measurement(path, group="2")["time"]) == 10
     with pytest.raises(
-        vi.InputError, match="line 1: the file has 2 segments; a file with one segment is accepted"
+        vi.InputError, match="line 1: the file has 2 segments; use a file with one segment"
     ):
         vi.Record.read(path, 1)
 

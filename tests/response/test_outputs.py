@@ -158,7 +158,7 @@ def test_branches_have_outputs_of_orbits_and_bifurcations(function):
         ("max(applied_force)", "'applied_force' is neither"),
         ("max(friction*velocity)", "'friction' is neither"),
         ("velocity", "'velocity' is a time history, not a number; apply max, min, mean"),
-        ("max(velocity", "cannot be read .*; a formula such as"),
+        ("max(velocity", "cannot be read .*; use a formula such as"),
         ("velocity^2", r"\^ is not a power here; write \*\*"),
         ("__import__('os')", "'__import__' is not a function that outputs accept"),
         ("velocity.max()", "is not accepted"),
@@ -188,7 +188,7 @@ def test_what_is_no_name(name):
 def test_what_are_no_outputs():
     with pytest.raises(vi.InputError, match=r"^outputs: .* is not a mapping"):
         vi.sweep(FREE, [0.9], outputs="max(velocity)")
-    with pytest.raises(vi.InputError, match=r"^units: 3 is not a text"):
+    with pytest.raises(vi.InputError, match=r"^units: 3 is not a string"):
         vi.Output("max(velocity)", units=3)
 
 

@@ -100,8 +100,8 @@ def test_logarithmic_axes_are_refined_geometrically():
 @pytest.mark.parametrize(
     ("name", "values", "message"),
     [
-        ("gip", [1, 2], "^vary: 'gip'; one of gap, amplitude"),
-        ("gap_rtio", [1, 2], r"^vary: 'gap_rtio'; did you mean gap_ratio\?"),
+        ("gip", [1, 2], "^vary: 'gip' is unknown; use gap, amplitude"),
+        ("gap_rtio", [1, 2], r"^vary: 'gap_rtio' is unknown; did you mean gap_ratio\?"),
         ("gap", "1:2", r"^vary\['gap'\]: '1:2' is not a list; pass a list of values"),
         ("gap", [0.01], r"^vary\['gap'\]: the list has one value; pass at least two values"),
         ("gap", [0.01, 0.01], r"^vary\['gap'\]\[1\]: 10 mm follows 10 mm; sort the values in "),
@@ -122,9 +122,9 @@ def test_what_cannot_be_an_axis_is_refused(name, values, message):
     ("spacing", "message"),
     [
         ("log", '^spacing: \'log\'; pass a dict of "log" or "linear" by parameter'),
-        ({"gap": "cubic"}, r"^spacing\['gap'\]: 'cubic'; one of log, linear is accepted"),
-        ({"amplitude": "log"}, "^spacing: 'amplitude' is not an axis of this map; one of gap, "),
-        ({"gpa": "log"}, "^spacing: 'gpa'; one of gap, amplitude"),
+        ({"gap": "cubic"}, r"^spacing\['gap'\]: 'cubic' is unknown; use log or linear"),
+        ({"amplitude": "log"}, "^spacing: 'amplitude' is not an axis of this map; use gap or "),
+        ({"gpa": "log"}, "^spacing: 'gpa' is unknown; use gap, amplitude"),
         ({"gap": "log"}, r"^vary\['gap'\]\[0\]: 0 is not possible on a logarithmic axis"),
     ],
 )

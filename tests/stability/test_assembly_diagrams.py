@@ -95,5 +95,5 @@ def test_a_motion_that_is_not_periodic_fills_its_section() -> None:
 
 def test_what_is_refused() -> None:
     rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 0.9))
-    with pytest.raises(vi.InputError, match=r"^section: 'impacts'; for an Assembly, only 'strob"):
+    with pytest.raises(vi.InputError, match=r"^section: 'impacts'; for an Assembly, use 'strob"):
         vi.bifurcation_diagram(rig, vary={"gap": (0.01, 0.02)}, steps=2, section="impacts")

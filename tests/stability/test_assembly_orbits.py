@@ -254,7 +254,7 @@ def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
     assert "grazing" in found["bifurcation_kind"].values
     with pytest.raises(
         vi.InputError,
-        match="'damping_ratio' is not a parameter of this rig; one of freq",
+        match="'damping_ratio' is not a parameter of this rig; use freq",
     ):
         vi.branch(rig, vary={"damping_ratio": (0.01, 0.02)})
 

@@ -81,7 +81,7 @@ def test_near_the_static_limit():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"quantity": "colour"}, "quantity: 'colour'; one of displacement_excursion, "),
+        ({"quantity": "colour"}, "quantity: 'colour' is unknown; use displacement_excursion, "),
         ({"draws": 100}, "draws: 100"),
         ({"resamples": -1}, "resamples"),
         ({"seed": 0.5}, "seed"),

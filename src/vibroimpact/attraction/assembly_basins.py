@@ -26,7 +26,7 @@ from vibroimpact.attraction.find_attractors import MOST
 from vibroimpact.attraction.node_labels import NOWHERE, UNDECIDED, NodeLabels, label_nodes
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
@@ -107,7 +107,7 @@ def read_plane(plane: object, assembly: Assembly) -> tuple[Coordinate, Coordinat
     found = []
     for name, span in given.items():
         if name not in of:
-            raise InputError(f"plane: {shown(name)}; one of {', '.join(of)} is accepted")
+            raise InputError(f"plane: {unknown(name, of)}")
         field = f"plane[{name!r}]"
         low, high = read_span(span, of[name], field)
         found.append(Coordinate(name, low, high, of[name]))

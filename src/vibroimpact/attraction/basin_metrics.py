@@ -60,8 +60,8 @@ def uncertainty_exponent(labels: _Labels) -> Exponent:
     """The exponent α of f(ε) ∝ ε^α, f the share of pairs at a distance ε that lead elsewhere.
 
     Pairs of nodes a power of two apart along each axis, fitted by least squares of the logarithms
-    (C. Grebogi et al., Physics Letters A 99, 415, 1983). NaN where there is no border, or one too
-    short to tell.
+    (C. Grebogi et al., Physics Letters A 99, 415, 1983). NaN where there is no border, or if it
+    is too short.
     """
     steps = [1 << k for k in range(max(min(labels.shape) // 8, 1).bit_length())]
     rows, columns = (n - steps[-1] for n in labels.shape)

@@ -155,7 +155,7 @@ class Search:
         return -1
 
     def _rest(self, left: _Whole, states: _Array, owner: _Tiny, outcome: _Tiny) -> None:
-        """Tell what no trap has caught by what it visits, or by following it to its end."""
+        """Classify what no trap has caught by what it visits, or by following it to its end."""
         if any(not one.found.period for one in self.known):
             seen = np.full((_WATCHED, len(left)), np.nan)
             going, now = np.arange(len(left)), states
@@ -202,7 +202,7 @@ class Search:
         self.traps = Traps(rows, whose, grid)
 
     def _one_motion(self, cells: Cells, mask: NDArray[np.bool_], number: int) -> bool:
-        """Whether all that begins in closed cells ends as one motion, as far as samples tell."""
+        """Whether all that begins in closed cells ends as one motion, as far as samples show."""
         rows, columns = np.nonzero(mask)
         centres = np.zeros((len(rows), 5))
         centres[:, :2] = cells.corner + cells.side * (np.column_stack([columns, rows]) + 0.5)

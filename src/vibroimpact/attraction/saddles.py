@@ -214,7 +214,7 @@ def _places(labels: NDArray[np.int8]) -> tuple[list[tuple[int, int]], int]:
 
 
 def _edge(search: Search, one: _Array, other: _Array) -> _Array:
-    """A state on the border between two, as near as numbers tell."""
+    """A state on the border between two, as near as numbers allow."""
     stage, traps = search.stage, search.traps
     label = follow(stage, one[None], None, traps, search.max_cycles).owner[0]
     for _ in range(_HALVINGS):

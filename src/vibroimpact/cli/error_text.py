@@ -9,7 +9,7 @@ from cyclopts import CycloptsError
 from cyclopts.exceptions import UnknownCommandError, UnknownOptionError, UnusedCliTokensError
 
 from vibroimpact.cli.function_options import RENAMED
-from vibroimpact.errors import short_line
+from vibroimpact.errors import alternatives, short_line
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _VARIED = re.compile(r"vary\[(['\"])(.+?)\1\](\[\d+\])?")
@@ -42,8 +42,8 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
     elif isinstance(error, UnknownCommandError) and error.app is not None:
         # cyclopts lists only some of the commands.
         first, _, _ = str(error).partition(" Available commands:")
-        names = ", ".join(name for name in error.app if not name.startswith("-"))
-        line = f"{first} {names} are accepted"
+        names = alternatives(name for name in error.app if not name.startswith("-"))
+        line = f"{first} Use {names}"
     elif isinstance(error, UnknownOptionError) and (advice := _replacement(error)):
         line = f"Unknown option: {advice}"
     elif pair := _PAIR.search(str(error)):
@@ -51,7 +51,7 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
     else:
         line = str(error).rstrip(".")
     if isinstance(error, CycloptsError):
-        line += "; --help lists what is accepted"
+        line += " See --help" if line.endswith("?") else "; see --help"
     return short_line(_as_option(line, words) + _quoting(words))
 
 

@@ -106,7 +106,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     whole = int((last - first) / width)
     if whole >= MOST:
         raise InputError(
-            f"--step: {step:g} Hz makes {whole + 1} frequencies, but at most {MOST} are accepted; "
+            f"--step: {step:g} Hz makes {whole + 1} frequencies, more than {MOST}; "
             "raise --step, or narrow the range from --from to --to"
         )
     grid = [float(first + k * width) for k in range(whole + 1)]

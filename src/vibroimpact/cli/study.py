@@ -123,7 +123,7 @@ class DesignTable(Model):
 class EnsembleTable(Model):
     """Table ``[ensemble]``: the uncertain parameters, and the number of random rigs.
 
-    A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
+    A distribution is a string such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
     """
 
     uncertain: Annotated[dict[str, str] | None, BeforeValidator(_flat)] = Field(

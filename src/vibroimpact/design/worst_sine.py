@@ -160,7 +160,7 @@ class Sines(NamedTuple):
         if count > MOST:
             raise InputError(
                 f"step: {self.step:g} gives {count:g} frequencies from {low:.3g} to {high:.3g} Hz "
-                f"at a natural frequency of {natural:.3g} Hz, but at most {MOST} are accepted; "
+                f"at a natural frequency of {natural:.3g} Hz, more than {MOST}; "
                 "narrow the frequency range or raise step"
             )
         return np.linspace(low, max(high, low), count)

@@ -103,7 +103,7 @@ def demands(
         list are named after their files.
     scales
         Levels of shaking to which each record is scaled. They are rising numbers greater than 0, or
-        texts with units, in the measure that ``intensity`` selects.
+        strings with units, in the measure that ``intensity`` selects.
     intensity
         Measure of the scales. ``"factor"`` is the number by which a record is multiplied. ``"PGA"``
         is the peak acceleration of the record (m/s²). A pair of a natural period (s) and a damping

@@ -34,7 +34,7 @@ def earthquake_response(
     rig
         The rig, shaken by a record.
     tail
-        Duration of free vibration after the record (s, or text). None for two natural periods,
+        Duration of free vibration after the record (s, or a string). None for two natural periods,
         the longest ones of an assembly.
     samples
         Samples of the motion in each step of the record.

@@ -44,7 +44,7 @@ def seismic_response(
     rig
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     tail
-        Duration of free vibration after the record, in seconds or as text such as ``"10s"``.
+        Duration of free vibration after the record, in seconds or as a string such as ``"10s"``.
         Default: two natural periods of the mass with the smallest stiffness of the isolator.
     max_events
         Largest number of contacts and detachments in one step of the record. When the motion

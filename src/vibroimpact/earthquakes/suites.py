@@ -138,9 +138,9 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = N
     quantity
         Name of a peak in the dataset, as in `fractiles`.
     limit
-        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit;
-        for ``"displacement_min"`` a lower one.
-        Default: 0 for counts; for other quantities the limit is required.
+        Limit of the quantity, in SI units or as a string with a unit. A greater value exceeds the
+        limit; for ``"displacement_min"`` a lower one. Default: 0 for counts; for other quantities
+        the limit is required.
 
     Returns
     -------

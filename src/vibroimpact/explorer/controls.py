@@ -53,7 +53,7 @@ SYMBOLS = {
 
 
 LABELS = {"force": "constant force"}
-"""Labels of knobs whose fields do not tell them from others."""
+"""Labels of knobs whose fields do not distinguish them from others."""
 AMPLITUDES: dict[Of, tuple[str, str]] = {
     "acceleration": ("base acceleration", "A"),
     "displacement": ("base displacement", "X"),

@@ -329,7 +329,7 @@ async def start(first: PageState, host: str, port: int, token: str = "") -> tupl
     OSError
         If the port is in use, or if the host is not an address of this machine.
     """
-    # It tells of every visitor that is refused; who is refused reads why.
+    # It reports every visitor that is refused; who is refused reads why.
     quiet = logging.getLogger("vibroimpact.explorer")
     quiet.addHandler(logging.NullHandler())
     quiet.propagate = False

@@ -97,7 +97,7 @@ class Session:
             state does not change then.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
-            return {"refused": "message: it is not valid; a message of the page is accepted"}
+            return {"refused": "message: it is not valid; reload the page"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
             history = self._next(message)
@@ -370,7 +370,7 @@ def _text(message: Message, key: str) -> str:
     value = message.get(key)
     if not isinstance(value, str) or len(value) > 200:
         raise InputError(
-            f"{key}: {shown(value)} is not valid; use a text of at most 200 characters"
+            f"{key}: {shown(value)} is not valid; use a string of at most 200 characters"
         )
     return value
 

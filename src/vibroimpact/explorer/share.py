@@ -83,13 +83,13 @@ def _from_table(table: Any) -> PageState:
     name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
     if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
         raise InputError(
-            f"address: the name {shown(name)} is not valid; use a text of at most {_LONGEST_NAME} "
-            "printable characters"
+            f"address: the name {shown(name)} is not valid; use a string of at most "
+            f"{_LONGEST_NAME} printable characters"
         )
     if direction not in get_args(Direction):
-        raise InputError(f"address: the direction is {unknown(direction, get_args(Direction))}")
+        raise InputError(f"address: direction {unknown(direction, get_args(Direction))}")
     if of not in list(QUANTITIES):
-        raise InputError(f"address: the quantity of the shaking is {unknown(of, QUANTITIES)}")
+        raise InputError(f"address: quantity of the shaking {unknown(of, QUANTITIES)}")
     if not (isinstance(span, list) and len(span) == 2):
         raise InputError(
             f"address: the range of frequencies {shown(span)} is not valid; use two frequencies "

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import (
     History,
     chosen,
@@ -90,7 +90,7 @@ def mass_histories(
     """
     shown = history(motion, cycles)
     if quantity not in LABELS:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(LABELS)} is accepted")
+        raise InputError(f"quantity: {unknown(quantity, LABELS)}")
     names = chosen(masses, shown.assembly.names, "mass", "masses")
     pairs = chosen(closing, tuple(shown.assembly.stops), "stop", "closing") if closing else []
     every = rows_of_panels(axes, [*names, *pairs], 1.45, title)

@@ -127,7 +127,7 @@ def history(motion: Any, cycles: float | None = None) -> History:
     if "event_stop" not in motion or not motion.sizes.get("time"):
         raise InputError(f"{what}, with samples greater than 0")
     if cycles is not None and not 0.0 < cycles < math.inf:
-        raise InputError(f"cycles: {cycles!r}; a finite number greater than 0 is accepted")
+        raise InputError(f"cycles: {cycles!r}; use a finite number greater than 0")
     if "cycle" not in motion:
         at, events = motion["time"].values, motion["event_time"].values
         return History(assembly, motion, at, "time (s)", events)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import band_of, chosen, history
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
@@ -71,7 +71,7 @@ def pair_portrait(
         raise InputError(f"second: {second!r} is also the first mass; pass two different masses")
     known = ("displacement", "velocity", "approach")
     if quantity not in known:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(known)} is accepted")
+        raise InputError(f"quantity: {unknown(quantity, known)}")
     ax = axes_or_new(ax, (5.2, 4.4), title)
     moved, fast = (
         {name: shown.motion[what].sel(mass=name).values for name in names}

@@ -11,7 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, alternatives, unknown
 from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
@@ -106,15 +106,13 @@ def resonance_family(
     if quantity is None:
         quantity = "eta_d" if draws_eta(data) else "displacement_excursion"
     if quantity not in get_args(Quantity):
-        accepted = ", ".join(get_args(Quantity))
-        raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
+        raise InputError(f"quantity: {unknown(quantity, get_args(Quantity))}")
     names = [str(name) for name in data["rig"].values]
     for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in given or {}:
             if name not in names:
                 raise InputError(
-                    f"{field}: {name!r} is not a rig of data; the names of its rigs are accepted: "
-                    f"{', '.join(names)}"
+                    f"{field}: {name!r} is not a rig of data; use {alternatives(names)}"
                 )
     ax = axes_or_new(ax, (7.2, 5.2), title)
     factor, label = _QUANTITIES[quantity]

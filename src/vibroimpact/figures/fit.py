@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, alternatives
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels, new_axes
@@ -177,8 +177,8 @@ def fit_history(
     name = test if test is not None else histories[0]
     if name not in histories:
         raise InputError(
-            f"test: {test!r} is not a time history of this fit; one of "
-            f"{', '.join(map(repr, histories))} is accepted"
+            f"test: {test!r} is not a time history of this fit; use "
+            f"{alternatives(map(repr, histories))}"
         )
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))

@@ -42,7 +42,7 @@ def frequency_marks(axes: Annotated[Any, _check_panels], frequencies: Marks) -> 
     axes
         One or several Axes whose horizontal axis is the frequency in Hz.
     frequencies
-        Frequencies, as a mapping from names to numbers in Hz or texts with units.
+        Frequencies, as a mapping from names to numbers in Hz or strings with units.
 
     Raises
     ------
@@ -58,8 +58,8 @@ def frequency_marks(axes: Annotated[Any, _check_panels], frequencies: Marks) -> 
             low, high = ax.get_xlim()
             if not low <= value <= high:
                 raise InputError(
-                    f"frequencies[{name!r}]: {value:g} Hz is outside the frequency axis; a "
-                    f"frequency from {low:.4g} to {high:.4g} Hz is accepted"
+                    f"frequencies[{name!r}]: {value:g} Hz is outside the frequency axis; use "
+                    f"a frequency from {low:.4g} to {high:.4g} Hz"
                 )
     for ax in axes:
         bottom, top = ax.get_ylim()

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import motion_parameters
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.motion_style import axes_or_new, by_name, looks
@@ -56,9 +56,9 @@ def spectrum_lines(
         If a dataset does not hold a spectrum, or if the quantity is unknown.
     """
     if quantity not in _LABELS:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
+        raise InputError(f"quantity: {unknown(quantity, _LABELS)}")
     if not 0.0 < highest < math.inf:
-        raise InputError(f"highest: {highest!r}; a finite order greater than 0 is accepted")
+        raise InputError(f"highest: {highest!r}; use a finite order greater than 0")
     # A dataset is a mapping, too.
     given = by_name(spectra, "motion")
     if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:

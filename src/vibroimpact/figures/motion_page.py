@@ -99,7 +99,7 @@ def motion_page(
         made = np.asarray(axes, dtype=object)
         if made.size != ROWS * count:
             raise InputError(
-                f"axes: {made.size} given; {ROWS * count} are accepted, {ROWS} for each of the "
+                f"axes: {made.size} Axes; pass {ROWS * count}, {ROWS} for each of the "
                 f"{count} columns"
             )
         grid = made.reshape(ROWS, count).view(Grid)

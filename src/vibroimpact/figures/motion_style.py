@@ -96,7 +96,7 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
     """
     if cycles is not None:
         if not 0.0 < cycles < math.inf:
-            raise InputError(f"cycles: {cycles!r}; a finite number greater than 0 is accepted")
+            raise InputError(f"cycles: {cycles!r}; use a finite number greater than 0")
         return cycles
     periods = [
         round(origin.cycles)
@@ -186,7 +186,7 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
         return ax
     if ax is not None:
         raise InputError(
-            f"ax: {errors.shown(ax)} is not an Axes of matplotlib; an Axes or None is accepted"
+            f"ax: {errors.shown(ax)} is not an Axes of matplotlib; pass an Axes or None"
         )
     made: Axes = new_axes(1, 1, size)[0, 0]
     if title:

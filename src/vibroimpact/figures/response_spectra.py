@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new, by_name
@@ -62,7 +62,7 @@ def response_spectra(
         unknown. Also if there are more curves than can be distinguished.
     """
     if quantity not in _LABELS:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
+        raise InputError(f"quantity: {unknown(quantity, _LABELS)}")
     given = _named(spectrum)
     factor, label = _LABELS[quantity]
     every = [(name, curve) for name, one in given.items() for curve in _curves(one[quantity])]
@@ -72,7 +72,7 @@ def response_spectra(
             "records, orientations or damping ratios"
         )
     ax = axes_or_new(ax, (5.6, 3.6), title)
-    # Colours tell records or orientations apart, and dashes the rest; alone, both change together.
+    # Colours distinguish records or orientations, and dashes the rest; alone, both change together.
     groups = [(name, _orientation(curve)) for name, curve in every]
     numbers = {group: number for number, group in enumerate(dict.fromkeys(groups))}
     grouped = len(numbers) > 1

@@ -46,7 +46,7 @@ def figure_size(
     Parameters
     ----------
     width
-        Width in m, or text with a unit, such as ``"86 mm"`` or ``"3.4 in"``.
+        Width in m, or a string with a unit, such as ``"86 mm"`` or ``"3.4 in"``.
     height
         Height, in the same form. Default: the height shrinks with the square root of the width,
         because text does not shrink with the figure.

@@ -245,8 +245,7 @@ def panels(
         return Panels(made.ravel()[:count])
     given = Panels(np.ravel(axes))
     if len(given) != count:
-        wanted = "1 is" if count == 1 else f"{count} are"
-        raise InputError(f"axes: {len(given)} given; {wanted} accepted ({what})")
+        raise InputError(f"axes: {len(given)} Axes; pass {count} ({what})")
     for ax in given:
         lay_out(ax)
     return given

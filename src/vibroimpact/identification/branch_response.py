@@ -11,7 +11,7 @@ passes one of them. So each measured jump is given the jump of the rig that it b
 
 Near a fit both jump in the same step, and a sweep alone is all that is needed.
 
-A jump of the rig that the test does not tell, since it is small or at an end, may still pass one of
+A jump of the rig that the test does not show, since it is small or at an end, may still pass one of
 its frequencies. The two holds beside it have the value of the other branch, too: that after the
 jump followed back, and that before it at its end. A point belongs to the nearer one.
 """
@@ -70,7 +70,7 @@ class Followed(NamedTuple):
     clamped: NDArray[np.bool_]
     """Whether the branch has ended before."""
     other: dict[int, Array]
-    """The other branch of holds beside a jump that the test does not tell."""
+    """The other branch of holds beside a jump that the test does not show."""
 
 
 class SteppedRig:

@@ -82,7 +82,7 @@ def rivals(
 
 
 def mirror_image(problem: Problem, x: Array) -> Array | None:
-    """What is free in the mirror image of a rig; None where the tests tell the sides, or it is x.
+    """What is free in the mirror image of a rig; None where the tests fix the sides, or it is x.
 
     Parameters of one side change places with those of the other if both are free and all their
     tests see both sides alike.

@@ -193,9 +193,7 @@ def ties_of(ties: Mapping[str, str] | None, rig: Rig) -> dict[str, str]:
         If a name is no parameter of a rig.
     """
     if not isinstance(ties, Mapping | None):
-        raise InputError(
-            f"ties: {shown(ties)}; a mapping such as {{'left.gap': 'right.gap'}} is accepted"
-        )
+        raise InputError(f"ties: {shown(ties)}; pass a mapping such as {{'left.gap': 'right.gap'}}")
     found = {}
     for tied, to in (ties or {}).items():
         found[parameter(tied, rig, "ties").name] = parameter(to, rig, "ties").name

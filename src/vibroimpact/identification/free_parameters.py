@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, advised, shown
 from vibroimpact.model.parameters import (
     Parameter,
     canonical,
@@ -84,12 +84,12 @@ def frees(
     Parameters
     ----------
     given
-        Names, as a list or a text with commas; or a mapping from names to a start, a range (low,
+        Names, as a list or a string with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
     rigs
         The rig and shaking of each test.
     each
-        Names of parameters that are fitted separately per test, as a list or a text with commas.
+        Names of parameters that are fitted separately per test, as a list or a string with commas.
     priors
         Mean and standard deviation by name; None for no prior.
     swings
@@ -109,8 +109,8 @@ def frees(
     own = {_name(name, known_names, "each") for name in _names(each, "each")}
     if not isinstance(priors, Mapping | None):
         raise InputError(
-            f"priors: {shown(priors)}; a mapping from names of parameters to pairs (mean, standard "
-            "deviation) is accepted"
+            f"priors: {shown(priors)}; pass a mapping from names of parameters to pairs (mean, "
+            "standard deviation)"
         )
     known = {_name(name, known_names, "priors"): value for name, value in (priors or {}).items()}
     for field, names in (("each", own), ("priors", set(known))):
@@ -129,7 +129,7 @@ def frees(
 
 
 def _names(given: Any, field: str) -> list[str]:
-    """Names from a text with commas or a list of them."""
+    """Names from a string with commas or a list of them."""
     if given is None:
         return []
     if isinstance(given, str):
@@ -137,7 +137,7 @@ def _names(given: Any, field: str) -> list[str]:
     names = list(given) if isinstance(given, Iterable) else [given]
     if not all(isinstance(name, str) for name in names):
         raise InputError(
-            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, mass', is accepted"
+            f"{field}: {shown(given)}; pass a list of names, or a string such as 'gap, mass'"
         )
     return names
 
@@ -147,11 +147,9 @@ def _name(name: Any, known: Iterable[str], field: str = "free") -> str:
     key = canonical(name, [*known, *SENSORS])
     if key in SENSORS or key in known:
         return key
-    hint = suggestion(name, [*known, *SENSORS])
-    raise InputError(
-        f"{field}: {shown(name)}; {hint}{'A' if hint else 'a'} parameter of the rig "
-        f"({', '.join(known)}) or of a sensor ({', '.join(SENSORS)}) is accepted"
-    )
+    what = f"a parameter of the rig ({', '.join(known)}) or of a sensor ({', '.join(SENSORS)})"
+    use = advised(suggestion(name, [*known, *SENSORS]), what)
+    raise InputError(f"{field}: {shown(name)} is unknown; {use}")
 
 
 def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: float) -> Free:
@@ -225,13 +223,11 @@ def _bounded(value: Any, field: str) -> dict[str, Any]:
         bounded = dict(value)
         if strange := set(bounded) - {"start", "low", "high"}:
             name = shown(min(strange, key=str))
-            raise InputError(
-                f"{field}: the key {name} is unknown; start, low and high are accepted"
-            )
+            raise InputError(f"{field}: the key {name} is unknown; use start, low or high")
         return bounded
     if isinstance(value, Sequence) and not isinstance(value, str | bytes):
         if len(value) != 2:
-            raise InputError(f"{field}: {shown(value)}; a range (low, high) is accepted")
+            raise InputError(f"{field}: {shown(value)}; pass a range (low, high)")
         return {"low": value[0], "high": value[1]}
     return {} if value is None else {"start": value}
 
@@ -241,7 +237,7 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
     field = f"priors[{name!r}]"
     pair = list(prior) if isinstance(prior, Iterable) and not isinstance(prior, str) else []
     if len(pair) != 2:
-        raise InputError(f"{field}: {shown(prior)}; a pair (mean, standard deviation) is accepted")
+        raise InputError(f"{field}: {shown(prior)}; pass a pair (mean, standard deviation)")
     mean, deviation = pair
     size = to_si(deviation, quantity, f"{field}[1]", above=0.0)
     return to_si(mean, quantity, f"{field}[0]"), size

@@ -2,7 +2,7 @@
 
 Each window of the record is simulated from an initial state of its own, which is found with the
 parameters: where a motion is chaotic, or long, one initial state does not determine the end.
-The end of a window and the beginning of the next agree as well as the measurement tells.
+The end of a window and the beginning of the next agree as well as the measurement shows.
 """
 
 from __future__ import annotations

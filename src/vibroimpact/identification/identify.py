@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_name, check_variables
-from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.errors import InputError, alternatives, warn_of_input
 from vibroimpact.identification import results
 from vibroimpact.identification.equivalent_rigs import rivals
 from vibroimpact.identification.fit_inputs import tests_of, ties_of
@@ -233,8 +233,8 @@ def fitted_rig(result: xr.Dataset, test: String | None = None) -> Rig:
         and len({json.dumps(r["oscillator"]) for r in rigs.values()}) > 1
     ):
         raise InputError(
-            "test: missing, but the tests have different rigs; one of "
-            f"{', '.join(map(repr, rigs))} is accepted"
+            "test: missing, but the tests have different rigs; pass "
+            f"{alternatives(map(repr, rigs))}"
         )
     name = next(iter(rigs)) if test is None else test
     check_name(name, rigs, "test")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, alternatives
 from vibroimpact.identification.comparison import MODELS, asked_of, compare_fits, remodelled
 from vibroimpact.identification.identify import fitted_rig, identify
 from vibroimpact.model import Oscillator, Rig
@@ -74,7 +74,7 @@ def fit_models(
         If there is no such model, or as of `identify`.
     """
     if strange := sorted(set(others) - set(MODELS)):
-        raise InputError(f"compare: {strange[0]!r}; {' and '.join(MODELS)} are accepted")
+        raise InputError(f"compare: unknown model {strange[0]!r}; use {alternatives(MODELS)}")
     oscillator = rig.oscillator if isinstance(rig, Rig) else rig
     for other in others:
         remodelled(other, oscillator, depth=1e-3)  # refused before anything is computed

@@ -72,8 +72,8 @@ def next_test(
         Candidate frequencies (Hz). Default: 121 frequencies from 0.5 to 5 times the natural
         frequency.
     amplitudes
-        Candidate peaks of the base acceleration (m/s², or text with units). Default: from 0.5 to 2
-        times the amplitude of the test.
+        Candidate peaks of the base acceleration (m/s², or a string with a unit). Default: from 0.5
+        to 2 times the amplitude of the test.
     test
         Name of the test whose rig would be measured again. Default: the first test.
     noise

@@ -8,11 +8,11 @@ import xarray as xr
 from vibroimpact.measurements.features import outliers
 
 _FEW = 3
-"""Values of a hold from which on most of them tell which are the others."""
+"""Values of a hold from which on most of them show which are the others."""
 
 
 def stray_values(name: str, data: xr.Dataset) -> list[str]:
-    """Tell the holds of a test whose values lie far apart, a line each."""
+    """Report the holds of a test whose values lie far apart, a line each."""
     off = outliers(data)
     if not off:
         return []

@@ -1,4 +1,4 @@
-"""Channels: what sensors make of a motion, and what samples tell by themselves.
+"""Channels: what sensors make of a motion, and what samples show by themselves.
 
 That is their noise, their jumps, their integral, and the motion that they are samples of.
 """

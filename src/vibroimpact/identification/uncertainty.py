@@ -37,7 +37,7 @@ def spread(problem: Problem, x: Array) -> Spread:
     plain = problem.replaced(tail=np.inf)
     matrix = plain.jacobian(x, fine=True)
     # A jump at the edge of its step, and a point beside a fold, where a branch turns as a square
-    # root, bound a parameter on one side, which profiles tell; by their derivatives they would
+    # root, bound a parameter on one side, which profiles show; by their derivatives they would
     # bound it on both, far too tightly.
     steep = np.abs(matrix * problem.shares_of_curves[:, np.newaxis]).max(axis=1) > _STEEP
     matrix[problem.jumps | steep] = 0.0

@@ -178,7 +178,7 @@ def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
     if kind in ("unit", "time_unit"):
         text = "" if value is None and np.size(given) == 0 else value
         if not isinstance(text, str):
-            return None, "is not a unit; a text such as 'm/s^2' is accepted"
+            return None, "is not a unit; use a string such as 'm/s^2'"
         return known(text), ""
     size = number(value)
     if kind == "unclear":
@@ -186,7 +186,7 @@ def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
         nothing = size in (0.0, 1.0) or (isinstance(value, str) and not is_number(value))
         return None, "" if nothing else "may have been applied to the values or not"
     if size is None or (kind == "scale" and size == 0.0):
-        return None, "is not a scale or an offset; a number is accepted"
+        return None, "is not a scale or an offset; use a number"
     return size, ""
 
 

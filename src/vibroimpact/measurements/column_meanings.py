@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from vibroimpact.errors import InputError, shown, unknown
+from vibroimpact.errors import InputError, alternatives, shown, unknown
 from vibroimpact.measurements.columns import Array, Columns
 from vibroimpact.measurements.names import (
     AXES,
@@ -41,8 +41,8 @@ def known_columns(
             raise InputError(f"columns: {unknown(variable, accepted)}")
         if name not in names:
             raise InputError(
-                f"columns[{variable!r}]: {shown(name)} is not a column of {table.path!r}; one of "
-                f"{', '.join(names)} is accepted"
+                f"columns[{variable!r}]: {shown(name)} is not a column of {table.path!r}; use "
+                f"{alternatives(names)}"
             )
         chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]
     for key in units:

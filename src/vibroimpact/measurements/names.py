@@ -123,7 +123,8 @@ def meaning(name: str, stated: str | None = None) -> Meaning | None:
     name
         The name, which may end in a unit.
     stated
-        Unit that the file states elsewhere. It tells an acceleration along x from a displacement x.
+        Unit that the file states elsewhere. It distinguishes an acceleration along x
+        from a displacement x.
     """
     sure = re.search(r"/ *[A-Za-z0-9]+$", plain(name)) is not None
     words = words_of(name)
@@ -207,7 +208,7 @@ def _of_letters(words: list[str], unit: str | None) -> str | None:
     if not letters or any(word not in usual and not word.isdigit() for word in words):
         return None
     if set(letters) <= _ALONG and unit is not None:
-        # The axis of a sensor, whose unit tells what it measures.
+        # The axis of a sensor, whose unit states what it measures.
         for what, quantity in (("acceleration", ACCELERATION), ("velocity", VELOCITY)):
             if size_of(unit, quantity) is not None:
                 return what

@@ -72,7 +72,7 @@ def read_measurement(
     group
         Name of the test. It is required if the file holds several tests.
     amplitude
-        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``). It replaces the
+        Peak base acceleration of the test (m/s², or a string such as ``"0.05 g"``). It replaces the
         value in the file (``amplitude = 0.05 g``, ``amplitude_g = 0.05``), and is required if that
         value has no unit.
     frequency

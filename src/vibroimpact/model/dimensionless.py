@@ -154,12 +154,12 @@ class Dimensionless(Model):
         Parameters
         ----------
         mass
-            Mass M in kg, or text with units. Default: 1 kg.
+            Mass M in kg, or a string with a unit. Default: 1 kg.
         stiffness
-            Stiffness K of the isolator in N/m, or text with units. Default: 1 N/m.
+            Stiffness K of the isolator in N/m, or a string with a unit. Default: 1 N/m.
         amplitude
-            Peak base acceleration A in m/s², or text with units. The gaps are proportional to it.
-            Default: 1 m/s².
+            Peak base acceleration A in m/s², or a string with a unit. The gaps are proportional to
+            it. Default: 1 m/s².
 
         Returns
         -------
@@ -219,7 +219,7 @@ def from_dimensionless(
         Damping ratio ξ of the isolator.
     mass, stiffness, amplitude
         Physical scales: mass M in kg, stiffness K of the isolator in N/m, and peak base
-        acceleration A in m/s²; or texts with units. Default: 1 for each. In this case ω0 is 1
+        acceleration A in m/s²; or strings with units. Default: 1 for each. In this case ω0 is 1
         rad/s, and a frequency ratio r is the frequency ``r * rig.oscillator.natural_frequency`` in
         Hz.
 
@@ -300,7 +300,7 @@ def _pair(value: PerSide, field: str) -> tuple[float | str | None, float | str |
     if isinstance(value, tuple | list):
         if len(value) != 2:
             raise InputError(
-                f"{field}: {value!r} is not a pair; a number or a pair (right, left) is accepted"
+                f"{field}: {value!r} is not a pair; pass a number or a pair (right, left)"
             )
         return (value[0], value[1])
     return (value, value)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_list
-from vibroimpact.errors import InputError, errors_at, shown
+from vibroimpact.errors import InputError, alternatives, errors_at, shown
 from vibroimpact.model.assembly.names import check_part_name
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -163,10 +163,10 @@ class Harmonic(_Repeated):
         displacement of the base such as ``"5 mm"``, a force on the mass such as ``"120 N"``, or a
         rotating unbalance m e on the mass such as ``"0.4 kg m"``, whose force is m e (2π f)².
     frequency
-        Frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angular frequency such
-        as ``"15.7 rad/s"`` is converted to Hz.
+        Frequency f in Hz, greater than 0; or a string such as ``"2.5 Hz"``. An angular frequency
+        such as ``"15.7 rad/s"`` is converted to Hz.
     phase
-        Phase φ in rad; or text such as ``"90 deg"``. Default: 0.
+        Phase φ in rad; or a string such as ``"90 deg"``. Default: 0.
     of
         Quantity of an amplitude that has no unit: ``"acceleration"`` (m/s², the default),
         ``"displacement"`` (m), ``"force"`` (N) or ``"unbalance"`` (kg m).
@@ -227,13 +227,13 @@ class Periodic(_Repeated):
     Parameters
     ----------
     frequency
-        Fundamental frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``.
+        Fundamental frequency f in Hz, greater than 0; or a string such as ``"2.5 Hz"``.
     amplitudes
-        Amplitudes A_1, A_2, …, at most 32. Each is a number or a text, as the amplitude of a
+        Amplitudes A_1, A_2, …, at most 32. Each is a number or a string, as the amplitude of a
         `Harmonic`. All must have the same dimension. An amplitude of 0 omits the harmonic. An
         unbalance of harmonic n rotates n times as fast: its force is m e (2π n f)².
     phases
-        Phases φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all are 0.
+        Phases φ_1, φ_2, … in rad, or strings such as ``"90 deg"``. Default: all are 0.
     phase
         Phase φ in rad, at which the excitation starts in its period. Default: 0.
     of, on
@@ -270,7 +270,7 @@ class Periodic(_Repeated):
             return data
         given, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
         if not 1 <= len(given) <= MOST:
-            raise InputError(f"amplitudes: {len(given)} given; 1 to {MOST} are accepted")
+            raise InputError(f"amplitudes: {len(given)} harmonics; pass 1 to {MOST}")
         values = []
         for i, one in enumerate(given):
             value, of = sized(one, of, f"amplitudes[{i}]")
@@ -341,7 +341,7 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
         If it is invalid, or its unit does not fit the quantity.
     """
     if of is not None and not (isinstance(of, str) and of in QUANTITIES):
-        raise InputError(f"of: {shown(of)}; one of {', '.join(map(repr, QUANTITIES))} is accepted")
+        raise InputError(f"of: {shown(of)} is unknown; use {alternatives(map(repr, QUANTITIES))}")
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)

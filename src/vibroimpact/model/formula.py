@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import ClassVar, NamedTuple, NoReturn, TypeAlias
 
-from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.errors import InputError, advised, alternatives, meant, shown
 from vibroimpact.law_numbers import LARGEST
 
 _LONGEST = 300
@@ -42,12 +42,12 @@ ARGUMENTS = ("kind", "formula", "gap", "numbers")
 """Names of a law's own arguments and keys, which no number of its formula can have."""
 
 _REFUSED = {
-    "sign": "a force that jumps can hold the mass at rest; abs(u) and abs(v) are accepted; for dry "
-    "friction, use a FrictionIsolator",
-    "max": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted, and max(..., 0) "
-    "around the whole force of a stop",
-    "min": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted",
-    "log": "it is not finite at rest; powers and exp are accepted",
+    "sign": "a force that jumps can hold the mass at rest; use abs(u) or abs(v), or for dry "
+    "friction a FrictionIsolator",
+    "max": "it has no Taylor series at its corner; use abs(u) or abs(v), or max(..., 0) around the "
+    "whole force of a stop",
+    "min": "it has no Taylor series at its corner; use abs(u) or abs(v)",
+    "log": "it is not finite at rest; use powers or exp",
 }
 
 _ELSEWHERE = {
@@ -123,9 +123,9 @@ def read_formula(
         The message states the column.
     """
     if not isinstance(text, str):
-        raise InputError(f"formula: {shown(text)} is not a text; a text such as 'k*u' is accepted")
+        raise InputError(f"formula: {shown(text)} is not a string; use a string such as 'k*u'")
     if len(text) > _LONGEST:
-        raise InputError(f"formula: it has {len(text)} characters; at most {_LONGEST} are accepted")
+        raise InputError(f"formula: it has {len(text)} characters; use at most {_LONGEST}")
     try:
         tree, clipped = unclipped(text := text.strip(), variables)
     except SyntaxError as error:
@@ -133,7 +133,7 @@ def read_formula(
         refuse_at(column, f"it cannot be read ({error.msg}); correct the formula at this place")
     except (ValueError, RecursionError, MemoryError):
         raise InputError(
-            f"formula: {shown(text)} cannot be read; a formula such as 'k*u + k3*u**3' is accepted"
+            f"formula: {shown(text)} cannot be read; use a formula such as 'k*u + k3*u**3'"
         ) from None
     reader = Reader(text, numbers, variables)
     made = reader.read(tree)
@@ -212,7 +212,7 @@ class Reader:
         if isinstance(part, ast.Constant):
             value = part.value
             if isinstance(value, bool) or not isinstance(value, int | float):
-                refuse_at(at, f"{shown(value)} is not a number; a number such as 2.5 is accepted")
+                refuse_at(at, f"{shown(value)} is not a number; use a number such as 2.5")
             if not abs(value) < 1e300:
                 refuse_at(at, f"{text} is not a finite number")
             return Node("number", (), at, text, float(value))
@@ -233,9 +233,7 @@ class Reader:
             refuse_at(at, f"{text!r}: ^ is not a power here; write **")
         if isinstance(part, ast.Call):
             return self.called(part, at, text)
-        refuse_at(
-            at, f"{text or 'this'} is not a formula; + - * / ** ( ) and functions are accepted"
-        )
+        refuse_at(at, f"{text or 'this'} is not a formula; use + - * / ** ( ) and functions")
 
     def named(self, name: str, at: int) -> Node:
         """Return the node of a name, which is a variable or a number with a value."""
@@ -249,7 +247,7 @@ class Reader:
                 refuse_at(at, f"{name!r} cannot be the name of a number; use another name")
             refuse_at(
                 at,
-                f"{name!r} has no value; {meant(name, known)}{', '.join(known)} are accepted, or "
+                f"{name!r} has no value; {advised(meant(name, known), alternatives(known))}, or "
                 f"pass {name}=... as another argument",
             )
         if name not in self.used:
@@ -269,22 +267,20 @@ class Reader:
                 if name and name not in FUNCTIONS
                 else f"{text!r} cannot be read"
             )
-            refuse_at(at, f"{what}; {', '.join(FUNCTIONS)} with one argument are accepted")
+            refuse_at(at, f"{what}; use {alternatives(FUNCTIONS)} with one argument")
         inner = self.read(part.args[0])
         if name == "abs" and inner.kind not in ("number", "variable"):
             refuse_at(
                 at,
                 f"the absolute value of {inner.text!r} is not accepted, because its corner may lie "
-                f"anywhere; abs({self.variables[0]}) and abs({self.variables[1]}) are accepted",
+                f"anywhere; use abs({self.variables[0]}) or abs({self.variables[1]})",
             )
         return self.made(name, (inner,), at, text)
 
     def power(self, base: Node, exponent: Node, at: int, text: str) -> Node:
         """Return the node of a power. The exponent must be a number."""
         if exponent.kind != "number":
-            refuse_at(
-                exponent.column, f"the exponent {exponent.text!r} varies; a number is accepted"
-            )
+            refuse_at(exponent.column, f"the exponent {exponent.text!r} varies; use a number")
         unit = self.dimension(exponent)
         if unit is not None and not _same(unit, NONE):
             refuse_at(
@@ -293,7 +289,7 @@ class Reader:
         if not abs(exponent.number) <= LARGEST:
             refuse_at(
                 exponent.column,
-                f"the exponent is {exponent.number:g}; from -{LARGEST} to {LARGEST} is accepted",
+                f"the exponent is {exponent.number:g}; use one from -{LARGEST} to {LARGEST}",
             )
         made = self.made("**", (base, exponent), at, text)
         if exponent.number:
@@ -358,8 +354,8 @@ class Reader:
         if inner is not None and not _same(inner, NONE):
             refuse_at(
                 parts[0].column,
-                f"the argument of {kind}, {parts[0].text!r}, is {_words(inner)}; a number without "
-                "a unit is accepted",
+                f"the argument of {kind}, {parts[0].text!r}, is {_words(inner)}; use a number "
+                "without a unit",
             )
         return NONE
 

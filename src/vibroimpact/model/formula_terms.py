@@ -133,8 +133,8 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
     if not rest > 0.0 if above else rest == 0.0:
         refuse_at(
             part.column,
-            f"the {what} {part.text!r} is {rest:g} at rest; a {what} that "
-            f"{'stays above' if above else 'is never'} 0 is accepted",
+            f"the {what} {part.text!r} is {rest:g} at rest; use a {what} that "
+            f"{'stays above' if above else 'is never'} 0",
         )
     way = math.copysign(1.0, rest)
     rays = [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (1.0, 30.0), (1.0, -30.0)]
@@ -159,8 +159,8 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
                 ]
                 refuse_at(
                     part.column,
-                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; a {what} that "
-                    f"{'stays above' if above else 'is never'} 0 is accepted",
+                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; use a {what} "
+                    f"that {'stays above' if above else 'is never'} 0",
                 )
             before = size
 

@@ -59,9 +59,9 @@ FREQUENCIES: tuple[float, ...] = tuple(round(0.1 * k, 10) for k in range(5, 51))
 
 _NO_GAP_LIMIT = ("GINF", "G∞", "INF", "∞", "FREE")
 _ACCEPTED = (
-    "bumper-gap-acceleration is accepted, such as B2-G1-A3; bumper: B1 to B4, or a stiffness such "
-    "as 510kN/m; total gap: G1 to G4, a length such as 10mm, or Ginf (no bumpers); acceleration: "
-    "A1 to A3, or from 0.03g to 0.05g"
+    "use bumper-gap-acceleration, such as B2-G1-A3; bumper: B1 to B4, or a stiffness such as "
+    "510kN/m; total gap: G1 to G4, a length such as 10mm, or Ginf (no bumpers); acceleration: A1 "
+    "to A3, or from 0.03g to 0.05g"
 )
 
 
@@ -211,8 +211,7 @@ def case(code: str, parameters: Parameters = "table") -> Case:
     parts = _split(code)
     if parameters not in get_args(Parameters):
         raise InputError(
-            f"parameters: {shown(parameters)} is unknown; 'table', 'identified' or 'refined' is "
-            "accepted"
+            f"parameters: {shown(parameters)} is unknown; use 'table', 'identified' or 'refined'"
         )
     bumper_name, bumper_stiffness = _part(code, "bumper", parts[0], BUMPERS, STIFFNESS)
     if parts[1].upper() in _NO_GAP_LIMIT:
@@ -315,10 +314,7 @@ def _part(
     if name in names:
         return name, names[name]
     known_names = ", ".join((*names, "Ginf") if role == "gap" else names)
-    wanted = (
-        f"{known_names} or {quantity.phrase} such as {quantity.example.replace(' ', '')} "
-        "is accepted"
-    )
+    wanted = f"use {known_names} or {quantity.phrase} such as {quantity.example.replace(' ', '')}"
     if text[0].isalpha():
         raise InputError(f"case {shown(code)}: {role} {shown(text)} is unknown; {wanted}")
     least: dict[str, Any] = {"minimum": 0.0} if quantity is LENGTH else {"above": 0.0}
@@ -341,7 +337,7 @@ def _isolator_stiffness(code: str, text: str, amplitude: float) -> float:
             return (1.0 - share) * k_low + share * k_high
     raise InputError(
         f"case {shown(code)}: acceleration {shown(text)} is outside the tested range, in which "
-        "the stiffness of the isolator is known; an acceleration from 0.03g to 0.05g is accepted"
+        "the stiffness of the isolator is known; use an acceleration from 0.03g to 0.05g"
     )
 
 

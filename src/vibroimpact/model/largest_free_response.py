@@ -25,7 +25,7 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     oscillator
         The oscillator. Its stops are ignored.
     amplitude
-        Peak base acceleration A in m/s², or text with a unit.
+        Peak base acceleration A in m/s², or a string with a unit.
 
     Returns
     -------
@@ -90,13 +90,13 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
             f"damping_ratio: at {damping_ratio:.6g}, the motion without stops has no finite "
-            "resonance peak, so the gap ratio is undefined; a damping ratio greater than 0 and "
-            "less than 0.707107 is accepted"
+            "resonance peak, so the gap ratio is undefined; use a damping ratio greater than 0 "
+            "and less than 0.707107"
         )
     if amplitude == 0.0:
         raise InputError(
-            "amplitude: 0 causes no motion, so the gap ratio is undefined; an acceleration greater "
-            "than 0 is accepted"
+            "amplitude: 0 causes no motion, so the gap ratio is undefined; use an acceleration "
+            "greater than 0"
         )
     peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
     if not 0.0 < peak < math.inf:

@@ -22,7 +22,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, core_schema
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, alternatives, shown
 from vibroimpact.model.validation import Choice, Model
 
 
@@ -43,8 +43,7 @@ class Named(Model):
             return data
         if data["kind"] != cls.kind:
             raise InputError(
-                f"kind: {shown(data['kind'])} is not the kind of a {cls.__name__}; {cls.kind!r} is "
-                "accepted"
+                f"kind: {shown(data['kind'])} is not the kind of a {cls.__name__}; use {cls.kind!r}"
             )
         return {name: value for name, value in data.items() if name != "kind"}
 
@@ -112,10 +111,8 @@ class Kinds(Choice):
 
     def unknown(self, value: Any) -> str:
         """Describe the error of a table with an unknown kind."""
-        *names, last = map(repr, self.classes)
-        known = f"{', '.join(names)} or {last}" if names else last
         kind = value["kind"] if isinstance(value, Mapping) else self.kind_of(value)
-        return f"{shown(kind)} is unknown; {known} is accepted"
+        return f"{shown(kind)} is unknown; use {alternatives(map(repr, self.classes))}"
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

@@ -23,13 +23,13 @@ def check_name(name: Any, field: str) -> str:
     Raises
     ------
     InputError
-        If the name is not a text, is longer than 200 characters, or contains control characters or
-        line breaks.
+        If the name is not a string, is longer than 200 characters, or contains control characters
+        or line breaks.
     """
     if not isinstance(name, str):
-        raise InputError(f"{field}: {shown(name)}; a text is accepted")
+        raise InputError(f"{field}: {shown(name)}; use a string")
     if len(name) > _LONGEST:
-        raise InputError(f"{field}: {len(name)} characters; at most {_LONGEST} are accepted")
+        raise InputError(f"{field}: {len(name)} characters; use at most {_LONGEST}")
     if found := UNPRINTABLE.search(name):
         raise InputError(
             f"{field}: {shown(name)} has the control character {found[0]!a}; remove this character"

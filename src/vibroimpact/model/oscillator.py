@@ -45,8 +45,9 @@ class Oscillator(Model):
     Parameters
     ----------
     mass
-        Mass M in kg, greater than 0; or text such as ``"550 kg"``. In the table of a study file,
-        ``weight`` may replace the mass. It is the weight M g in N, or a text such as ``"50 MN"``.
+        Mass M in kg, greater than 0; or a string such as ``"550 kg"``. In the table of a study
+        file, ``weight`` may replace the mass. It is the weight M g in N, or a string such as
+        ``"50 MN"``.
     isolator
         An `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
         `BoucWenIsolator`, `ExponentialIsolator` or `Law`. A mapping with the fields of such an
@@ -62,7 +63,7 @@ class Oscillator(Model):
     left
         Stop at negative displacement, as for ``right``.
     force
-        Constant force on the mass in N, positive to the right; or text such as ``"-5.4 kN"``.
+        Constant force on the mass in N, positive to the right; or a string such as ``"-5.4 kN"``.
         Examples are the weight of the mass and wind. Default: 0.
     units
         ``"SI"``, or ``"none"`` if the numbers are dimensionless. Results of a rig without units are
@@ -227,8 +228,7 @@ class Oscillator(Model):
             if not right + left > 0.0:
                 raise InputError(
                     f"right.gap: {pretty(right, LENGTH)} and left.gap: {pretty(left, LENGTH)} "
-                    "leave no room between two rigid stops; gaps with a sum greater than 0 are "
-                    "accepted"
+                    "leave no room between two rigid stops; use gaps with a sum greater than 0"
                 )
         return self
 
@@ -319,10 +319,9 @@ class Oscillator(Model):
             if part is None or part.linear or (name != "isolator" and not stops):
                 continue
             law = part.kind if part.kind != "linear" else "a dashpot with an exponent"
-            accepted = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
+            linear = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
             raise InputError(
-                f"{name}: its law, {law}, is not linear, so it has no {what}; {accepted} is "
-                "accepted"
+                f"{name}: its law, {law}, is not linear, so it has no {what}; use {linear}"
             )
 
     @property

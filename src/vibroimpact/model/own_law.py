@@ -85,12 +85,12 @@ class Law(Named):
     formula
         Formula of the force in N, such as ``"k*u + k3*u**3 + c*v"``.
     gap
-        For a stop: distance from the mass at u = 0 to the undeformed stop, in m; or text such as
-        ``"7.5 mm"``. Default: None, for an isolator.
+        For a stop: distance from the mass at u = 0 to the undeformed stop, in m; or a string such
+        as ``"7.5 mm"``. Default: None, for an isolator.
     **numbers
-        Values of the names in the formula. A text with a unit, such as ``k="26 kN/m"``, is checked
-        against the units of the formula. A plain number is in SI units. A number cannot have the
-        name of a variable, of a function or of a field of this class, such as ``gap``.
+        Values of the names in the formula. A string with a unit, such as ``k="26 kN/m"``, is
+        checked against the units of the formula. A plain number is in SI units. A number cannot
+        have the name of a variable, of a function or of a field of this class, such as ``gap``.
 
     Raises
     ------
@@ -410,8 +410,8 @@ def _check_odd(read: Formula) -> None:
         if parity(term) != ODD:
             raise InputError(
                 f"formula: column {term.column}: {term.text!r} does not change its sign with u and "
-                "v, as the force of an isolator must; terms such as u**3, u*abs(u), sinh(u/u0) and "
-                "tanh(v/v0) are accepted"
+                "v, as the force of an isolator must; use terms such as u**3, u*abs(u), sinh(u/u0) "
+                "and tanh(v/v0)"
             )
 
 

@@ -20,9 +20,9 @@ from vibroimpact.model.size_checks import doubt_damping_ratio
 from vibroimpact.model.units import pretty, to_si
 
 Ranges: TypeAlias = Mapping[str, tuple[float | str, float | str]]
-"""Lowest and highest value by parameter, in SI units or as texts with units."""
+"""Lowest and highest value by parameter, in SI units or as strings with units."""
 Values: TypeAlias = Mapping[str, ArrayLike]
-"""Values by parameter, in SI units or as texts with units."""
+"""Values by parameter, in SI units or as strings with units."""
 
 _RANGES = {"frequency": ("1 Hz", "3 Hz"), "gap": ("5 mm", "8 mm")}
 _VALUES = {"gap": ["5 mm", "8 mm"], "damping_ratio": [0.05, 0.1]}

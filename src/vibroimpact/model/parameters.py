@@ -18,7 +18,15 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from vibroimpact.errors import InputError, errors_at, meant, shown
+from vibroimpact.errors import (
+    InputError,
+    advised,
+    alternatives,
+    errors_at,
+    meant,
+    shown,
+    suggested,
+)
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.derived_parameters import DERIVED
@@ -237,7 +245,7 @@ def _only(name: str) -> list[str]:
 def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
     """Return a rig with other values at some paths, in any order.
 
-    The values are numbers in SI units, texts with units, or whole parts; None removes a part. A
+    The values are numbers in SI units, strings with units, or whole parts; None removes a part. A
     path may name any field, and the fields of an absent stop, which is then made. All fields are
     set at once, that of one stop after that of all stops. Derived parameters follow. They keep what
     their definitions keep, except a damping that is stated; a period keeps the damping ratio also
@@ -398,7 +406,7 @@ def suggestion(path: object, known: Iterable[str]) -> str:
     """Return the paths that a wrong name may mean, such as ``did you mean right.gap?``, or ""."""
     known = list(known)
     if isinstance(path, str) and (meanings := _fields_named(path.strip().lower(), known)):
-        return f"did you mean {meanings}? "
+        return suggested(meanings)
     return meant(path, [*known, *(one.removeprefix("stops.") for one in known)])
 
 
@@ -409,13 +417,10 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
     known = list(parameters(rig))
     if meanings := _fields_named(name, known):
         return InputError(f"{field}: {path!r} is not a path; use {meanings}")
-    hint = suggestion(path, known)
+    use = advised(suggestion(path, known), alternatives(known))
     elsewhere = canonical(path, PARAMETERS) in PARAMETERS
     why = " is not a parameter of this rig" if elsewhere else " is unknown"
-    return InputError(
-        f"{field}: {shown(path)}{why}; {hint}{'One' if hint else 'one'} of {', '.join(known)} is "
-        "accepted"
-    )
+    return InputError(f"{field}: {shown(path)}{why}; {use}")
 
 
 def _uneven(name: str, places: list[Place]) -> InputError:

@@ -57,7 +57,7 @@ def _of_items(annotation: Any) -> Accepts | None:
 def put(part: Any, values: Mapping[Steps, Any]) -> Any:
     """Return an object with other values at some paths, all set at once and validated.
 
-    The values are numbers in SI units, texts with units, or whole parts; None removes a part. An
+    The values are numbers in SI units, strings with units, or whole parts; None removes a part. An
     absent part becomes a table of its values, which the object that has it reads.
 
     Raises

@@ -67,7 +67,7 @@ class Quantity:
     symbol
         The SI unit, such as ``"m"``; empty for a ratio.
     example
-        Accepted text with a unit, such as ``"15 mm"``.
+        Accepted string with a unit, such as ``"15 mm"``.
     number
         The same example as a number in SI units.
     scales

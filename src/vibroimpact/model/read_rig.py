@@ -20,8 +20,8 @@ from vibroimpact.model.rig import Rig, several_masses
 from vibroimpact.model.study import read_rig_study
 
 _ACCEPTED = (
-    'a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, such '
-    'as "rig.toml", is accepted'
+    'pass a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, '
+    'such as "rig.toml"'
 )
 
 
@@ -39,7 +39,7 @@ def as_rig(
     value
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
-        Forcing frequency in Hz, or text with a unit. Default: the frequency of the rig.
+        Forcing frequency in Hz, or a string with a unit. Default: the frequency of the rig.
     where
         Name of the argument in error messages.
     oscillator_alone
@@ -87,7 +87,7 @@ def as_assembly(value: Any, where: str = "rig") -> Assembly:
     """
     system = _read(value, where, oscillator_alone=True).system
     if not isinstance(system, Assembly):
-        raise InputError(f"{where}: an Oscillator has one mass; an Assembly is accepted")
+        raise InputError(f"{where}: an Oscillator has one mass; pass an Assembly")
     return system
 
 
@@ -189,8 +189,8 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
         if oscillator_alone:
             return Rig(value)
         raise InputError(
-            f"{where}: an Oscillator alone has no shaking; a Rig with a shaking is accepted, such "
-            'as Rig(oscillator, "0.05 g")'
+            f"{where}: an Oscillator alone has no shaking; pass a Rig with a shaking, such as "
+            'Rig(oscillator, "0.05 g")'
         )
     if isinstance(value, Harmonic | Periodic | Record):
         raise InputError(

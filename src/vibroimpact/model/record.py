@@ -38,7 +38,7 @@ class Record:
     acceleration
         At least 2 samples of the acceleration in m/s², or a pint quantity.
     step
-        Time between samples in s, greater than 0; or text such as ``"10 ms"``.
+        Time between samples in s, greater than 0; or a string such as ``"10 ms"``.
 
     Raises
     ------
@@ -89,9 +89,9 @@ class Record:
             numbers as they are, for a rig without units. Default: the unit in the file. It is
             required if the file states none.
         step
-            Time between samples (s, or text with a unit). It replaces the step or the times in the
-            file. The values of a file of digitised film, whose times are uneven, are interpolated
-            at this step.
+            Time between samples (s, or a string with a unit). It replaces the step or the times in
+            the file. The values of a file of digitised film, whose times are uneven, are
+            interpolated at this step.
         station, label
             Names of the station and of the component. They replace the names in the file.
         decimal
@@ -143,7 +143,7 @@ class Record:
         displacement
             At least 8 samples of the displacement in m, or a pint quantity.
         step
-            Time between samples in s, greater than 0; or text such as ``"10 ms"``.
+            Time between samples in s, greater than 0; or a string such as ``"10 ms"``.
 
         Raises
         ------
@@ -217,7 +217,7 @@ class Record:
         scale
             Factor by which the record is multiplied. It must not be 0.
         peak
-            Peak of the scaled record in m/s², or text such as ``"0.3 g"``. Pass it instead of
+            Peak of the scaled record in m/s², or a string such as ``"0.3 g"``. Pass it instead of
             ``scale``.
 
         Raises
@@ -240,7 +240,7 @@ class Record:
                 )
             factor = wanted / self.peak
         if factor == 0.0:
-            raise InputError(f"scale: {scale}; a number other than 0 is accepted")
+            raise InputError(f"scale: {scale}; use a number other than 0")
         return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
 
     def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
@@ -280,7 +280,7 @@ class Record:
         """
         degree = _DEGREES.get(baseline)
         if degree is None:
-            raise InputError(f"baseline: {baseline!r}; 'mean' or 'line' is accepted")
+            raise InputError(f"baseline: {baseline!r}; use 'mean' or 'line'")
         time = np.linspace(-1.0, 1.0, len(self._acceleration))
         fitted = np.polynomial.polynomial.polyfit(time, self._acceleration, degree)
         line = np.polynomial.polynomial.polyval(time, fitted)
@@ -349,7 +349,7 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
         unit = to_si(1.0 * values.units, quantity, field)
         values = np.asarray(values.magnitude, dtype=float) * unit
     if hasattr(values, "__len__") and getattr(values, "ndim", 1) > 0 and len(values) > MOST_SAMPLES:
-        raise InputError(f"{field}: {len(values)} samples; at most {MOST_SAMPLES} are accepted")
+        raise InputError(f"{field}: {len(values)} samples; pass at most {MOST_SAMPLES}")
     try:
         found = np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

@@ -27,7 +27,7 @@ from vibroimpact.model.written_units import NONE, SI, written_for
 System: TypeAlias = Oscillator | Assembly
 """What a rig shakes."""
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
-"""Accepted values for the shaking of a rig: an amplitude, a text with a unit, one amplitude per
+"""Accepted values for the shaking of a rig: an amplitude, a string with a unit, one amplitude per
 frequency of a sweep, a `Harmonic`, a `Periodic` or a `Record`."""
 
 _EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
@@ -44,7 +44,7 @@ class Rig:
     shaking
         What shakes the rig. It is one of:
 
-        - the peak A of the base acceleration in m/s², greater than 0, or a text such as
+        - the peak A of the base acceleration in m/s², greater than 0, or a string such as
           ``"0.05 g"`` (acceleration of the base), ``"5 mm"`` (displacement of the base) or
           ``"120 N"`` (force on the mass) or ``"0.4 kg m"`` (rotating unbalance). In this case the
           frequency is open: it is set later, by ``frequency`` or by a function such as `sweep`;
@@ -57,8 +57,8 @@ class Rig:
         A force or an unbalance on an assembly requires the mass on which it acts, as in
         ``Harmonic("120 N", "2 Hz", on="roof")``.
     frequency
-        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
-        If the shaking is only an amplitude, the frequency is open.
+        Forcing frequency in Hz, or a string such as ``"2 Hz"``. Default: the frequency of the
+        shaking. If the shaking is only an amplitude, the frequency is open.
     name
         Name of the rig in datasets, tables and legends. Default: no name.
 
@@ -258,7 +258,7 @@ class Rig:
         return self.shaking
 
     def at(self, frequency: float | str) -> Rig:
-        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit).
+        """Return a copy of the rig with another forcing frequency (Hz, or a string with a unit).
 
         Raises
         ------

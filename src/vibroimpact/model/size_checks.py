@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.errors import InputError, shown, suggested, warn_of_input
 
 SMALLEST, LARGEST = 1e-100, 1e100
 """Smallest and largest accepted size in SI units."""
@@ -30,6 +30,5 @@ _FAR_OVERDAMPED = 2.0
 def doubt_damping_ratio(value: float, field: str) -> None:
     """Issue a warning if a damping ratio was probably meant in percent."""
     if value >= _FAR_OVERDAMPED:
-        warn_of_input(
-            field, [f"{value:g} is {value:g} times the critical damping; did you mean {value:g} %?"]
-        )
+        percent = suggested(f"{value:g} %").strip()
+        warn_of_input(field, [f"{value:g} is {value:g} times the critical damping; {percent}"])

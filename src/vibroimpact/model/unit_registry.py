@@ -53,7 +53,7 @@ def with_unit(number: Decimal, rest: str) -> Any:
     if rest not in FRACTIONS:
         for fraction in FRACTIONS:
             if any(fraction in name for name in names):
-                raise RefusalError(f"has {fraction} and a unit; one of the two is accepted")
+                raise RefusalError(f"has {fraction} and a unit; write one of the two")
     for name in names:
         if meant := two_meanings(name):
             raise RefusalError(f"has the ambiguous unit '{name}'; write {meant}")

@@ -1,4 +1,4 @@
-"""Conversion of texts with units to numbers in SI units, and of such numbers to texts.
+"""Conversion of strings with units to numbers in SI units, and of such numbers to texts.
 
 All numbers inside the package are in SI units. This module converts the texts of a user, such as
 ``"15 mm"``, ``"510 kN/m"`` or ``"0.05 g"``, to such numbers. It also writes numbers as readable
@@ -71,9 +71,9 @@ def to_si(
     minimum: float | None = None,
     maximum: float | None = None,
 ) -> float:
-    """Convert a number or a text with a unit to a number in SI units.
+    """Convert a number or a string with a unit to a number in SI units.
 
-    A number, or a text without a unit, is already in SI units (Hz for a frequency, rad for an
+    A number, or a string without a unit, is already in SI units (Hz for a frequency, rad for an
     angle). A text with a unit is converted exactly and rounded once, so that ``"26.8 kN/m"`` equals
     ``26800.0``. In a product of units, write ``*``, ``·`` or a space between them. Powers are
     written as in ``m/s^2``, ``m/s**2``, ``m/s²``, ``m/s2`` or ``m s-2``.
@@ -179,7 +179,7 @@ def read(
             raise RefusalError(f"is greater than {_bound(maximum, quantity)}")
     except RefusalError as refusal:
         wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
-        raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
+        raise InputError(f"{shown(value)} {refusal}; use {wanted}") from None
     # A negative zero equals zero but prints differently; adding 0.0 removes its sign.
     return number + 0.0
 
@@ -200,7 +200,7 @@ def accepted(
     has_unit = quantity.symbol and (not unitless() or quantity.name in _OF_ANY_RIG)
     number = f"{sign}{quantity.number}"
     example = f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if has_unit else number
-    return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
+    return f"{' '.join((quantity.phrase, *bounds))}, such as {example}"
 
 
 def with_si_unit(value: float, quantity: Quantity) -> str:
@@ -328,7 +328,7 @@ def _number(value: Any, quantity: Quantity) -> float:
             # Of a text the g is read as gravity; pint itself has made a gram of it.
             raise RefusalError(
                 "is a mass, because g is the gram in pint; for gravity, use pint's "
-                'standard_gravity or a text such as "0.05 g"'
+                'standard_gravity or a string such as "0.05 g"'
             )
         return float(_from_pint(value, quantity))
     raise RefusalError("is not a number")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from vibroimpact.errors import similar
+from vibroimpact.errors import advised, alternatives, meant
 
 MOST = 5
 """Largest number of unknown keys in a message. A search for suggestions takes long for many."""
@@ -49,8 +49,7 @@ def unknown_key(keys: Sequence[str], name: str, laws: Sequence[str] = ()) -> str
     """
     for names, beside, advice in _ELSEWHERE:
         if name in names and beside in keys:
-            return f"unknown key; {listed(keys)} are accepted; {advice}"
-    close = similar(name, keys, LIKENESS)
-    hint = f"; did you mean {close}?" if close else ""
+            return f"unknown key; {advice}; this table has the keys {listed(keys)}"
+    use = advised(meant(name, keys, LIKENESS), alternatives(keys))
     other = f"; {listed(laws)} {'has' if len(laws) == 1 else 'have'} this key" if laws else ""
-    return f"unknown key; {listed(keys)} are accepted{other}{hint}"
+    return f"unknown key; {use}{other}"

@@ -43,8 +43,8 @@ class Accepts:
     """Annotation of a field: its quantity and its bounds (SI units).
 
     ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres, which may be passed as
-    a number or as text with units. With ``optional=True`` the field may also be None, which means
-    that the value is unknown.
+    a number or as a string with a unit. With ``optional=True`` the field may also be None, which
+    means that the value is unknown.
 
     If the unit depends on an exponent, `by` is the name of the field with the exponent. The class
     must declare that field before. `family` returns the quantity for an exponent. `quantity` is the
@@ -92,7 +92,7 @@ class Accepts:
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        """Tell pydantic to call this object before its own check."""
+        """Make pydantic call this object before its own check."""
         if self.by is None:
             return core_schema.no_info_before_validator_function(self, handler(source))
 
@@ -127,7 +127,7 @@ def takes_fields(init: _Init) -> _Init:
     """Let an ``__init__``, which has no body, pass its arguments on as the fields of these names.
 
     An argument that is None by default is left out if it is None. The signature is written out for
-    calls by position, for ``help``, and because texts with units are accepted, too.
+    calls by position, for ``help``, and because strings with units are accepted, too.
     """
     _, *parameters = inspect.signature(init).parameters.values()
     names = [one.name for one in parameters]
@@ -356,7 +356,7 @@ def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelTy
     model
         The class, such as `Oscillator`.
     data
-        The table: a mapping from field names to numbers, texts with units or tables.
+        The table: a mapping from field names to numbers, strings with units or tables.
     where
         Path of the table in its file, such as ``"oscillator"``.
 
@@ -443,7 +443,7 @@ def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
 
 
 def _choice(model: type[BaseModel], name: str) -> Choice | None:
-    """What tells apart the classes that a field takes, if there are several."""
+    """What distinguishes the classes that a field takes, if there are several."""
     field = model.model_fields.get(name)
     return next((m for m in field.metadata if isinstance(m, Choice)), None) if field else None
 
@@ -477,5 +477,5 @@ def _missing(model: type[BaseModel], name: str) -> str:
     metadata = model.model_fields[name].metadata if name in model.model_fields else []
     for accepts in metadata:
         if isinstance(accepts, Accepts):
-            return f"missing; {accepts.words()}"
+            return f"missing; add {accepts.words()}"
     return f"missing; add this key (keys of this table: {listed(in_order(model))})"

@@ -1,4 +1,4 @@
-"""Values of a wrong kind in a table: what is accepted, and words for what is not."""
+"""Values of a wrong kind in a table, and words for them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from vibroimpact.errors import InputError, shown
 
 def _number_or_text(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise InputError(f"{shown(value)} is not a number or text with a unit")
+        raise InputError(f"{shown(value)} is not a number or a string with a unit")
     return value
 
 
@@ -31,7 +31,7 @@ def wrong_kind(mistake: ErrorDetails) -> str:
     """Describe what is wrong with a value, in the words of this package instead of pydantic's."""
     kind, context = mistake["type"], mistake.get("ctx", {})
     if kind == "literal_error":
-        return f"is unknown; {context['expected']} is accepted"
+        return f"is unknown; use {context['expected']}"
     if kind == "greater_than_equal":
         return f"is less than {context['ge']}"
     if kind == "less_than_equal":
@@ -44,7 +44,7 @@ def wrong_kind(mistake: ErrorDetails) -> str:
 
 
 _NOT = {
-    "string_": "is not text in quotes",
+    "string_": "is not a string in quotes",
     "list_": "is not a list in brackets",
     "dict_": "is not a table of names and values",
     "int_": "is not a whole number",

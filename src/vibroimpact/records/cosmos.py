@@ -100,7 +100,7 @@ def _reals(file: File, at: int) -> tuple[_Reals, int]:
 
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
-    begins = _expected(file, first, _BEGINS, "beginning of a channel; a COSMOS header is accepted")
+    begins = _expected(file, first, _BEGINS, "beginning of a channel; use a complete COSMOS file")
     at = first + int(begins[1])
     integers = _expected(file, at, _HEADER, "line above the integers of the header")
     codes, at = file.numbers(at + 1, int(integers[1]), int(integers[3]))
@@ -116,7 +116,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
         file.behind(at, count, width)
         if not re.match(r"\s*(End-of-data|/&)", file.lines[at], re.IGNORECASE):
             told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel; "
-            raise file.refused(at, f"{told}'End-of-data' is accepted")
+            raise file.refused(at, f"{told}end it with 'End-of-data'")
     head = file.lines[first : first + int(begins[1])]
     code = next((c for line in said if (c := _CODE.search(line))), None)
     towards = next((t[1] for line in head if (t := _TOWARDS.match(line))), "")

@@ -90,7 +90,7 @@ def read(file: File) -> list[Channel]:
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
     if not _BEGINS.match(file.lines[first]):
-        told = f"{file.lines[first].strip()[:40]!r} does not start a channel; a header is accepted"
+        told = f"{file.lines[first].strip()[:40]!r} does not start a channel; add its header"
         raise file.refused(first, told)
     raw = bool(_RAW.match(file.lines[first]))
     at = first
@@ -101,7 +101,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
             raise file.refused(
                 at,
                 "a second header starts here, but the first header has no line that describes its "
-                "values; a complete file is accepted",
+                "values; use a complete file",
             )
         at += 1
     head = _head(file, first, at)
@@ -216,7 +216,7 @@ def _end(file: File, at: int, first: int) -> int:
         if line.strip():
             told = (
                 f"{line.strip()[:40]!r} does not end the channel that starts in line {first + 1}; "
-                "'/&' is accepted"
+                "end it with '/&'"
             )
             raise file.refused(at, told)
         at += 1

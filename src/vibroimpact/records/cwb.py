@@ -31,7 +31,7 @@ def read(file: File) -> list[Channel]:
     components = [name[1] for name in names if name]
     if len(components) < len(names):
         told = f"{sequence[1].strip()!r} does not name components"
-        raise file.refused(ordered, f"{told}; 'Time U(+); N(+); E(+)' is accepted")
+        raise file.refused(ordered, f"{told}; write 'Time U(+); N(+); E(+)'")
     rated, rate = file.require_line(rf"#\s*SampleRate\s*\(Hz\)\s*:\s*{_NUMBER}", "the sample rate")
     lasts, length = file.require_line(rf"#\s*RecordLength\s*\(sec\)\s*:\s*{_NUMBER}", "the length")
     if float(rate[1]) <= 0.0:

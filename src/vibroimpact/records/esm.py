@@ -37,20 +37,18 @@ def read(file: File) -> list[Channel]:
         try:
             return float(entries.get(name) or "nan")
         except ValueError:
-            told = f"{name}: {entries[name]!r} is not a number; a number is accepted"
+            told = f"{name}: {entries[name]!r} is not a number; write a number"
             raise file.refused(where[name], told) from None
 
     found = number("NDATA")
     if not 1.0 <= found < math.inf:
-        told = f"NDATA: {entries.get('NDATA')!r}; a number of at least 2 values is accepted"
+        told = f"NDATA: {entries.get('NDATA')!r}; use a record with at least 2 values"
         raise file.refused(where.get("NDATA", at - 1), told)
     count = int(found)
     values, behind = file.numbers(at, count)
     for further in range(behind, len(file.lines)):
         if _ENTRY.match(file.lines[further]):
-            raise file.refused(
-                further, "a second header starts here; one record per file is accepted"
-            )
+            raise file.refused(further, "a second header starts here; use one record per file")
     file.behind(behind, count)
     step = number("SAMPLING_INTERVAL_S")
     unit = entries.get("UNITS") or None

@@ -40,7 +40,7 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
         raise file.refused(
             first,
             f"{file.lines[first].strip()[:40]!r} does not start a component; "
-            f"'Uncorrected accelerogram' or 'Corrected accelerogram' is accepted",
+            "start it with 'Uncorrected accelerogram' or 'Corrected accelerogram'",
         )
     integers, at = file.numbers(first + _TEXT, 40, _WIDTH)
     reals, at = file.numbers(at, 60, _WIDTH)

@@ -32,7 +32,7 @@ def each_channel(file: File, read: Callable[[File, int], tuple[Channel, int]]) -
 def check_stated(file: File, at: int, count: int, what: str = "values") -> int:
     """Check a number of values that a line states, and return it."""
     if count < 1:
-        raise file.refused(at, f"the header states {count} {what}; at least 2 are accepted")
+        raise file.refused(at, f"the header states {count} {what}; use a record with at least 2")
     return count
 
 

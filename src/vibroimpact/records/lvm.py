@@ -163,30 +163,24 @@ def _number(file: File, at: int, cell: str, decimal: str) -> float:
     try:
         return float(cell.replace(decimal, "."))
     except ValueError:
-        raise file.refused(at, f"{cell[:40]!r} is not a number; numbers are accepted") from None
+        raise file.refused(at, f"{cell[:40]!r} is not a number; write a number") from None
 
 
 def read(file: File) -> list[Channel]:
     """Read the channels of a file that has one segment."""
     found = segments(file)
     if len(found) != 1:
-        raise file.refused(
-            0, f"the file has {len(found)} segments; a file with one segment is accepted"
-        )
+        raise file.refused(0, f"the file has {len(found)} segments; use a file with one segment")
     channels = []
     for signal in found[0]:
         if signal.axis != "time":
-            told = (
-                f"{signal.name!r} is a function of {signal.axis!r}; values over time are accepted"
-            )
+            told = f"{signal.name!r} is a function of {signal.axis!r}; use values over time"
             raise file.refused(0, told)
         step = signal.step
         if step is None and len(signal.times) > 1 and (even := spacing(signal.times)).is_exact:
             step = even.step
         if not np.isfinite(signal.values).all():
-            raise file.refused(
-                0, f"{signal.name!r} has missing values; a complete record is accepted"
-            )
+            raise file.refused(0, f"{signal.name!r} has missing values; use a complete record")
         unit, other, of_name = units_of(signal.name, signal.label)
         channels.append(
             Channel(

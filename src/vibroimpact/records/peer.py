@@ -65,15 +65,13 @@ def read(file: File) -> list[Channel]:
     else:
         found, stepped = _COUNT.search(line), _STEP.search(line)
         if found is None:
-            raise file.refused(
-                at, f"{line.strip()!r} states no number of values; NPTS= is accepted"
-            )
+            raise file.refused(at, f"{line.strip()!r} states no number of values; add NPTS=")
         count, step = int(found[1]), _float(stepped[1]) if stepped else None
     check_stated(file, at, count)
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))
     if again is not None:
-        raise file.refused(again, "a second header starts here; one record per file is accepted")
+        raise file.refused(again, "a second header starts here; use one record per file")
     file.behind(behind, count)
     above = file.lines[: at + 1]
     unit = next((unit for line in above if (unit := stated_unit(line))), None)

@@ -48,8 +48,8 @@ def read(file: File) -> list[Channel]:
     for _ in range(max(comments, 0)):
         if not file.line(at).startswith("|"):
             told = (
-                f"the header states {comments} comments, but this line is not a comment; a line "
-                "that begins with '|' is accepted"
+                f"the header states {comments} comments, but this line is not a comment; "
+                "begin each with '|'"
             )
             raise file.refused(at, told)
         at += 1

@@ -43,7 +43,7 @@ _COLUMNS = np.array(
         layout.ISOLATOR,
     ]
 )
-"""Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode tells the
+"""Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode states the
 contact."""
 _TOUCHING = np.array(record.TOUCHING)
 _SIDES = {-1: "left", 1: "right"}

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.errors import InputError, advised, alternatives, meant, shown, suggested
 from vibroimpact.model.parameters import canonical, suggestion
 
 _Value = NDArray[np.float64]
@@ -106,17 +106,17 @@ def read_output_formula(
     """
     text = text.strip()
     if not 0 < len(text) <= _LONGEST:
-        raise InputError(f"it has {len(text)} characters; 1 to {_LONGEST} are accepted")
+        raise InputError(f"it has {len(text)} characters; use 1 to {_LONGEST} characters")
     try:
         tree = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         raise InputError(
-            f"{shown(text)} cannot be read ({error.msg}); a formula such as 'max(abs(velocity))' "
-            "is accepted"
+            f"{shown(text)} cannot be read ({error.msg}); use a formula such as "
+            "'max(abs(velocity))'"
         ) from None
     except (ValueError, RecursionError, MemoryError):
         raise InputError(
-            f"{shown(text)} cannot be read; a formula such as 'max(abs(velocity))' is accepted"
+            f"{shown(text)} cannot be read; use a formula such as 'max(abs(velocity))'"
         ) from None
     names = tuple(dict.fromkeys(_names(tree, histories, parameters)))
     held = tuple(name for name in names if name in histories)
@@ -141,11 +141,11 @@ def _names(part: ast.AST, histories: tuple[str, ...], parameters: tuple[str, ...
             if name not in known and canonical(name, known) not in known:
                 some = [*[one for one in parameters if one != "frequency"][:2], "frequency"]
                 parts = [one for one in known if one.startswith(f"{name}.")]
-                near = f"did you mean {parts[0]}? " if parts else suggestion(name, known)
+                near = suggested(parts[0]) if parts else suggestion(name, known)
                 raise InputError(
                     f"{name!r} is neither a time history nor a parameter of the rig; "
-                    f"{near}{', '.join(histories)}, and parameters such as "
-                    f"{', '.join(some)} are accepted"
+                    f"{advised(near, ', '.join(histories))}, or a parameter such as "
+                    f"{alternatives(some)}"
                 )
             return [name]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
@@ -158,18 +158,16 @@ def _names(part: ast.AST, histories: tuple[str, ...], parameters: tuple[str, ...
             return [*_names(one, histories, parameters), *_names(other, histories, parameters)]
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
             if name not in FUNCTIONS:
-                raise InputError(
-                    f"{name!r} is not a function that outputs accept; "
-                    f"{meant(name, FUNCTIONS)}{', '.join(FUNCTIONS)} are accepted"
-                )
+                use = advised(meant(name, FUNCTIONS), alternatives(FUNCTIONS))
+                raise InputError(f"{name!r} is not a function that outputs accept; {use}")
             if not (len(args) == 1 or (name in ("max", "min") and len(args) > 1)):
                 raise InputError(f"{ast.unparse(part)!r}: {name} has one argument")
             return [found for one in args for found in _names(one, histories, parameters)]
         case _:
             pass
     raise InputError(
-        f"{ast.unparse(part)!r} is not accepted; + - * / ** ( ), comparisons with < and >, and "
-        "functions are accepted"
+        f"{ast.unparse(part)!r} is not accepted; use + - * / ** ( ), comparisons with < and >, and "
+        "functions"
     )
 
 

@@ -71,11 +71,11 @@ class Output:
         ):
             raise InputError(
                 f"function: {shown(self.function)} is neither a formula nor a function; pass a "
-                "text such as 'max(abs(velocity))', or a function of a dataset"
+                "string such as 'max(abs(velocity))', or a function of a dataset"
             )
         for name in ("units", "long_name"):
             if not isinstance(getattr(self, name), str):
-                raise InputError(f"{name}: {shown(getattr(self, name))} is not a text")
+                raise InputError(f"{name}: {shown(getattr(self, name))} is not a string")
 
 
 AnyOutput: TypeAlias = Output | str | Callable[[xr.Dataset], float]

@@ -15,7 +15,7 @@ Whichever the side, above the upper end both directions follow one motion. The b
 arrives from there, so it is the forward one that has changed motion, and the lower end mirrors
 this: **the forward sweep jumps at the upper end, the backward sweep at the lower end.**
 
-A curve by itself also suggests a jump, by a step that neither of its neighbours announces
+A curve by itself also shows a jump, by a step that neither of its neighbours announces
 (`STEP`). This finds the jumps of a sweep in one direction, and those of a hysteresis so narrow
 that it hides between two neighbouring frequencies. It does not prove one, because frequencies
 that are too far apart make such a step of a smooth curve, too: `confirmed_jumps.confirm_jumps`

@@ -99,8 +99,8 @@ def simulate(
         is only the unit of time, and its default is the natural frequency, or 1 Hz without a
         spring.
     tail
-        Duration of free vibration after a record, in seconds or as text such as ``"10s"``. Default:
-        0.
+        Duration of free vibration after a record, in seconds or as a string such as ``"10s"``.
+        Default: 0.
     max_events
         Largest number of contacts and detachments in one forcing cycle, or in one step of a record.
         When the motion reaches this number, the computation is given up.

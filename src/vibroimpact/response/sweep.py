@@ -71,7 +71,7 @@ def sweep(
     rig
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequencies
-        Rising frequencies in Hz, or texts such as ``"2.5 Hz"``.
+        Rising frequencies in Hz, or strings such as ``"2.5 Hz"``.
     directions
         Sweep directions: ``"forward"`` (rising frequency), ``"backward"`` (falling frequency) or
         both. Each of the two sweeps starts from ``start``.

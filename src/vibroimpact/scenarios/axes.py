@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_mapping, check_name
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.errors import InputError, alternatives, unknown
 from vibroimpact.model import (
     Harmonic,
 )
@@ -105,8 +105,7 @@ def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[A
         known = _name(name, "spacing")
         if known not in names:
             raise InputError(
-                f"spacing: {name!r} is not an axis of this map; one of {', '.join(names)} is "
-                "accepted"
+                f"spacing: {name!r} is not an axis of this map; use {alternatives(names)}"
             )
         kinds[known] = check_name(kind, ("log", "linear"), f"spacing[{name!r}]")
     x, y = (

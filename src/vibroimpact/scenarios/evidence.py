@@ -1,4 +1,4 @@
-"""What a pair of resonance curves shows, as far as it tells the scenario.
+"""What a pair of resonance curves shows, as far as it decides the scenario.
 
 A secondary resonance lies below the primary one and within the range in which the mass hits the
 bumpers: also in the valley at its foot, on the side of low frequencies. Where contact begins on the
@@ -50,7 +50,7 @@ class Irregular(NamedTuple):
     high: float
     """Last frequency (Hz)."""
     kinds: tuple[Kind, ...]
-    """What occurs in it. A sweep tells "not periodic" only."""
+    """What occurs in it. A sweep shows "not periodic" only."""
     prominence: float
     """Of the most prominent peak of η_a in it, over its height; 0 if it holds none."""
     not_periodic: tuple[float, float] | None

@@ -97,7 +97,7 @@ def _hidden(found: Evidence) -> str:
 
 
 def _span(low: float, high: float) -> str:
-    """A range of frequencies, with as many digits as tell its ends apart."""
+    """A range of frequencies, with as many digits as distinguish its ends."""
     digits = 3
     while digits < 8 and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
         digits += 1

@@ -26,7 +26,7 @@ MAX_CYCLES = 300
 WINDOW = 100
 """Forcing cycles over which a motion that did not settle is measured."""
 KIND_CYCLES = 2000
-"""Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+"""Forcing cycles over which growth distinguishes chaotic from quasi-periodic motions."""
 RIG = 10**9
 """What a rig counts in a tally: more than its holds, which the sweeps count one by one."""
 

@@ -24,7 +24,7 @@ from vibroimpact.stability.motion_exponents import judge_wandering
 from vibroimpact.stability.settled_motion import Settled
 
 KIND_CYCLES = 5000
-"""Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+"""Forcing cycles over which growth distinguishes chaotic from quasi-periodic motions."""
 _LONGER = 20
 """How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000

@@ -168,9 +168,7 @@ def bifurcation_diagram(
     if isinstance(system, Assembly):
         check_size(system)
         if section != "stroboscopic":
-            raise InputError(
-                f"section: {shown(section)}; for an Assembly, only 'stroboscopic' is accepted"
-            )
+            raise InputError(f"section: {shown(section)}; for an Assembly, use 'stroboscopic'")
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]

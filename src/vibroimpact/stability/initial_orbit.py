@@ -105,7 +105,7 @@ def _least(
     status, found = corrected(Section(fam, period, False, scale), point, mode)
     told_by_none = scale[0] == _least_size(fam) or not fam.rig.system.stops
     if status is Status.NOT_SETTLED and told_by_none:
-        # Neither the start nor a gap tells the motion's size, which bounds a step; without stops
+        # Neither the start nor a gap states the motion's size, which bounds a step; without stops
         # the map is linear, and a step of any length is right.
         for factor in _LARGER:
             wide = scale * np.append(np.full(len(scale) - 1, factor), 1.0)
@@ -221,7 +221,7 @@ def symmetric_if_so(found: Orbit) -> Orbit:
 
 
 def _least_size(fam: Family) -> float:
-    """Of a displacement where nothing else tells one."""
+    """Of a displacement where nothing else states one."""
     return 1e-3 * reach_at_rest(fam.rig)
 
 

@@ -32,7 +32,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     damping = np.empty(1)
     state = found.state.copy()
     rates = []
-    for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
+    for _ in range(2):  # the second time shows how far rounding and the rest of a transient go
         outcome = lyapunov.monodromy(
             found.engine.vector,
             found.excitation.amplitude,

@@ -1,6 +1,6 @@
 """The kind of a motion that did not settle, from the growth of its disturbances.
 
-The logarithm L of the growth of a disturbance over N cycles tells the kinds apart by how it goes
+The logarithm L of the growth of a disturbance over N cycles distinguishes the kinds by how it goes
 with N, not by its size alone: in proportion to N and upwards if the motion is chaotic, downwards
 if it still approaches a periodic one; on a torus it stays bounded, or grows like log N where
 neighbouring tori shear (no dissipation).
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 BLOCKS = 32
-"""Blocks of cycles whose means tell how sure an average is."""
+"""Blocks of cycles whose means show how sure an average is."""
 _BRIDGE = math.sqrt(math.pi / 2.0)
 """Mean range of a Brownian bridge: of the sum of independent numbers about its line, over √N σ."""
 SIGNIFICANT = 5.0
@@ -112,7 +112,7 @@ def averages(
 
 @np.errstate(invalid="ignore")
 def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) -> Judgement:
-    """Tell the kind of a motion.
+    """Decide the kind of a motion.
 
     Where bumpers forget there is no quasi-periodic one (docs/theory.md, 6.5): then the exponents
     add up to minus the damping.

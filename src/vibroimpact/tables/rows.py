@@ -236,14 +236,14 @@ def _body(
         shown = file.lines[at].strip()[:40]
         raise file.refused(
             at,
-            f"{shown!r} is not a row of numbers; after the first row of numbers, only numbers are "
-            "accepted",
+            f"{shown!r} is not a row of numbers; after the first row of numbers, write only "
+            "numbers",
         )
     for end in ends:
         if first < end < last:
             behind = next(at for at, _ in body if at > end)
             raise file.refused(
-                behind, "numbers follow the end of the data; a file with one record is accepted"
+                behind, "numbers follow the end of the data; use a file with one record"
             )
     above = [one for one in headings if one.at < first]
     above += [Heading(at, file.lines[at].strip(), False) for at, _ in before]

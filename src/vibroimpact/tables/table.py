@@ -237,7 +237,7 @@ def _arrangement(
     Raises
     ------
     InputError
-        If neither the numbers nor a stated count tell.
+        If neither the numbers nor a stated count show it.
     """
     widths = list(map(len, values))
     width = Counter(widths).most_common(1)[0][0]

@@ -95,8 +95,8 @@ class _Hands:
                 begin, printed = now, False
             elif now - begin > _LONGEST:
                 raise LostError(
-                    f"where: the cluster has had no worker for {_LONGEST:g} s; a cluster with "
-                    "workers is accepted; if a store is used, repeat the call to resume"
+                    f"where: the cluster has had no worker for {_LONGEST:g} s; use a cluster with "
+                    "workers; if a store is used, repeat the call to resume"
                 )
             elif now - begin > _SOON and not printed:
                 printed = True
@@ -111,6 +111,6 @@ class _Hands:
             return taken.result()
         except self.distributed.KilledWorker as killed:
             raise LostError(
-                f"where: a task made the workers of the cluster fail ({killed}); workers with "
-                "more memory are accepted"
+                f"where: a task made the workers of the cluster fail ({killed}); use "
+                "workers with more memory"
             ) from killed

@@ -134,7 +134,7 @@ def each(
 
     with ThreadPoolExecutor(min(threads or available(), len(items))) as pool:
         futures = [pool.submit(one, number) for number in range(len(items))]
-        # Each tells when it is done: to ask all that are not would grow with the square of them.
+        # Each reports when it is done: to ask all that are not would grow with the square of them.
         ended: SimpleQueue[Future[_Found]] = SimpleQueue()
         for future in futures:
             future.add_done_callback(ended.put)

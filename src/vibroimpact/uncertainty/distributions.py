@@ -1,4 +1,4 @@
-"""Distributions of uncertain parameters: frozen distributions of scipy.stats, or texts."""
+"""Distributions of uncertain parameters: frozen distributions of scipy.stats, or strings."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def distribution(
     Parameters
     ----------
     given
-        A frozen distribution of `scipy.stats`, in SI units; or a text as in `KINDS`, such as
+        A frozen distribution of `scipy.stats`, in SI units; or a string as in `KINDS`, such as
         ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. SIGMA is the standard deviation of the
         logarithm.
     varied
@@ -57,7 +57,7 @@ def distribution(
         if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
             raise InputError(
                 f"{field}: {shown(given)} is not a distribution; pass a frozen distribution of "
-                f"scipy.stats, or a text: {KINDS}"
+                f"scipy.stats, or a string: {KINDS}"
             )
         frozen: Distribution = given
         return frozen

@@ -67,7 +67,7 @@ def ensemble(
     distributions
         Distributions of the uncertain parameters, as a mapping from names to distributions. The
         names are those of `branch`. A distribution is a frozen distribution of ``scipy.stats`` in
-        SI units, or a text such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or
+        SI units, or a string such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or
         ``"uniform:10%"``. A percentage refers to the value of the rig. The number of a lognormal
         distribution is the standard deviation of the logarithm, and the median is the value of the
         rig. The parameters are drawn independently of each other.

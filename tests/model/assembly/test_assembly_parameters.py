@@ -76,7 +76,7 @@ def test_values_are_set_at_once() -> None:
         ("links.storey.gap", r"'links.storey.gap' is unknown; did you mean links.storey.damping\?"),
         ("isolator.stiffness", r"is not a parameter of this rig; did you mean links.isolator.st"),
         ("damping_ratio", "'damping_ratio' is not a parameter of this rig"),
-        ("masses.nobody", "'masses.nobody' is unknown; one of frequency"),
+        ("masses.nobody", "'masses.nobody' is unknown; use frequency"),
     ],
 )
 def test_paths_that_there_are_not(path: str, says: str) -> None:

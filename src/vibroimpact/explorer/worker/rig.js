@@ -205,7 +205,7 @@ function withRatio(state, stop, name, value) {
 function checked(state) {
   const { oscillator: rig } = state;
   if (!(rig.isolator.stiffness > 0)) throw new Refused("isolator.stiffness: 0, so there is no natural frequency; use a stiffness greater than 0");
-  if (rigid(rig.right) && rigid(rig.left) && !(rig.right.gap + rig.left.gap > 0)) throw new Refused("right.gap and left.gap leave no room between two rigid stops; gaps with a sum greater than 0 are accepted");
+  if (rigid(rig.right) && rigid(rig.left) && !(rig.right.gap + rig.left.gap > 0)) throw new Refused("right.gap and left.gap leave no room between two rigid stops; use gaps with a sum greater than 0");
   return state;
 }
 

@@ -19,7 +19,7 @@ function normal(unit) {
 // A value in SI units: `accepts` has the quantity's name, its bounds, and words for what is accepted.
 export function read(value, accepts, quantities, path, limits) {
   const refuse = (why) => {
-    throw new Refused(`${path}: ${typeof value === "string" ? `'${value}'` : value} ${why}; ${accepts.accepted}`, path);
+    throw new Refused(`${path}: ${typeof value === "string" ? `'${value}'` : value} ${why}; use ${accepts.accepted}`, path);
   };
   let number = value;
   if (typeof value === "string") {

@@ -30,7 +30,7 @@ from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import check_no_units
 from vibroimpact.model.units import pretty
-from vibroimpact.model.unknown_keys import listed
+from vibroimpact.model.unknown_keys import listed, unknown_key
 from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
@@ -52,7 +52,7 @@ class Assembly(Model):
     Parameters
     ----------
     masses
-        Mapping from the names of the masses to the masses in kg, greater than 0, or texts such as
+        Mapping from the names of the masses to the masses in kg, greater than 0, or strings such as
         ``"300 t"``.
     links
         Mapping from names to objects `Link` with the law of an isolator. A mapping with the keys
@@ -65,7 +65,7 @@ class Assembly(Model):
         `Bumper` may have the coefficient of restitution of this mass, ``restitution``, instead of
         the damping. Default: no stops.
     forces
-        Mapping from names of masses to constant forces in N, positive to the right, or texts such
+        Mapping from names of masses to constant forces in N, positive to the right, or strings such
         as ``"5 kN"``. Default: none.
     damping
         Damping besides that of the links: a `ModalDamping` or a `RayleighDamping`. Default: none.
@@ -545,9 +545,7 @@ def _table(value: Any, part: str) -> Mapping[str, Any]:
 def _matrices_of(table: Mapping[str, Any]) -> Matrices:
     for key in table:
         if key not in (*_MATRIX_KEYS, "folder"):
-            raise InputError(
-                f"matrices.{key}: unknown key; {listed(list(_MATRIX_KEYS))} are accepted"
-            )
+            raise InputError(f"matrices.{key}: {unknown_key(_MATRIX_KEYS, key)}")
     if "mass" not in table:
         raise InputError("matrices.mass: missing; add the mass matrix, or the path of its file")
     with errors_at("matrices."):

@@ -37,14 +37,14 @@ def chain(
     Parameters
     ----------
     masses
-        Masses in kg from the lowest to the highest, or texts such as ``"250 t"``. A mapping also
+        Masses in kg from the lowest to the highest, or strings such as ``"250 t"``. A mapping also
         names them. Default names: "floor_1", "floor_2" and so on.
     stiffnesses
-        Stiffness of the link below each mass in N/m, greater than 0, or texts such as
+        Stiffness of the link below each mass in N/m, greater than 0, or strings such as
         ``"200 MN/m"``. The links are named "storey_1", "storey_2" and so on.
     damping_ratio
-        Damping ratio of the modes, at least 0, or text such as ``"5 %"``. For modal damping, a list
-        with one ratio per mode is also accepted. Default: 0.05.
+        Damping ratio of the modes, at least 0, or a string such as ``"5 %"``. For modal damping, a
+        list with one ratio per mode is also accepted. Default: 0.05.
     damping
         ``"modal"`` (the default): all modes have the damping ratio. ``"rayleigh"``: two modes have
         it, see ``rayleigh_modes``.
@@ -81,7 +81,7 @@ def chain(
             "that of the link below it"
         )
     if not isinstance(damping, str) or damping not in ("modal", "rayleigh"):
-        raise InputError(f"damping: {shown(damping)}; 'modal' or 'rayleigh' is accepted")
+        raise InputError(f"damping: {shown(damping)}; use 'modal' or 'rayleigh'")
     if damping == "modal" and rayleigh_modes is not None:
         raise InputError(
             "rayleigh_modes: passed without damping='rayleigh'; remove it, or set the damping"

@@ -63,7 +63,7 @@ class ModalDamping(Damping):
     Parameters
     ----------
     ratio
-        Damping ratio ζ of all modes, at least 0, or text such as ``"5 %"``; or a list with one
+        Damping ratio ζ of all modes, at least 0, or a string such as ``"5 %"``; or a list with one
         ratio per mode, in the order of the natural frequencies.
 
     Raises
@@ -114,7 +114,7 @@ class RayleighDamping(Damping):
     mass_factor
         Factor α of the mass matrix in 1/s, at least 0. It damps motion relative to the base.
     stiffness_factor
-        Factor β of the stiffness matrix in s, at least 0; or text such as ``"2 ms"``.
+        Factor β of the stiffness matrix in s, at least 0; or a string such as ``"2 ms"``.
 
     Raises
     ------

@@ -199,7 +199,7 @@ def _array(value: Any, field: str, folder: Path) -> NDArray[np.float64]:
     parts = [value, *value[:1]] if isinstance(value, list | tuple) else [value]
     for part in parts:
         if is_list(part) and isinstance(part, Sized) and len(part) > _MOST:
-            raise InputError(f"{field}: {len(part)} numbers in a row; at most {_MOST} are accepted")
+            raise InputError(f"{field}: {len(part)} numbers in a row; use at most {_MOST}")
     try:
         given = np.asarray(value)
         if given.dtype.kind not in "iuf":

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection
 from typing import Final
 
-from vibroimpact.errors import InputError, shown, similar
+from vibroimpact.errors import InputError, advised, alternatives, meant, shown
 from vibroimpact.model.unknown_keys import LIKENESS
 
 GROUND: Final = "ground"
@@ -70,9 +70,5 @@ def check_known(name: object, names: Collection[str], what: str, where: str) -> 
         return name
     if not names:
         raise InputError(f"{where}: {shown(name)} is not a {what}; the assembly has no {what}s")
-    close = similar(name, names, LIKENESS)
-    hint = f"did you mean {close!r}? " if close else ""
-    known = " or ".join(filter(None, (", ".join(map(repr, [*names][:-1])), repr([*names][-1]))))
-    raise InputError(
-        f"{where}: {shown(name)} is not a {what}; {hint}{'Use' if hint else 'use'} {known}"
-    )
+    use = advised(meant(name, names, LIKENESS), alternatives(names))
+    raise InputError(f"{where}: {shown(name)} is not a {what}; {use}")

@@ -22,14 +22,14 @@ class BilinearIsolator(YieldingLaw):
     Parameters
     ----------
     elastic_stiffness
-        Elastic stiffness k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+        Elastic stiffness k_e in N/m, greater than 0; or a string such as ``"500 kN/m"``.
     post_yield_stiffness
         Post-yield stiffness k_p in N/m, from 0 to k_e.
     yield_force
-        Yield force F_y in N, greater than 0; or text such as ``"1 kN"``. It is the force at the
+        Yield force F_y in N, greater than 0; or a string such as ``"1 kN"``. It is the force at the
         first yield.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     damping_exponent
         Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
         (s/m)^α. Default: 1.

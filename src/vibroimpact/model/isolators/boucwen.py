@@ -27,7 +27,7 @@ def _whole(value: Any) -> int:
     """Read an integer exponent; 2.0 counts as 2."""
     number: Any = value if isinstance(value, Integral | float) else math.nan
     if isinstance(value, bool) or not 1 <= number <= 100 or not float(number).is_integer():
-        raise InputError(f"{shown(value)}; a whole number from 1 to 100 is accepted, such as 1")
+        raise InputError(f"{shown(value)}; use a whole number from 1 to 100, such as 1")
     return int(number)
 
 
@@ -44,13 +44,13 @@ class BoucWenIsolator(YieldingLaw):
     Parameters
     ----------
     elastic_stiffness
-        Elastic stiffness k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+        Elastic stiffness k_e in N/m, greater than 0; or a string such as ``"500 kN/m"``.
     post_yield_stiffness
         Post-yield stiffness k_p in N/m, from 0 to k_e.
     yield_force
-        Yield force F_y in N, greater than 0; or text such as ``"1 kN"``.
+        Yield force F_y in N, greater than 0; or a string such as ``"1 kN"``.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     exponent
         Exponent n, a whole number from 1 to 100. The larger it is, the sharper is the transition to
         yielding. Default: 1.
@@ -107,7 +107,7 @@ class BoucWenIsolator(YieldingLaw):
             raise InputError(
                 f"exponent: {self.exponent} is too large, because the yield displacement, "
                 f"{self.yield_displacement:g} m, to this power is outside the range of "
-                f"floating-point numbers; at most {self._sharpest} is accepted"
+                f"floating-point numbers; use at most {self._sharpest}"
             )
         return self
 

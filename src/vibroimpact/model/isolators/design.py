@@ -66,8 +66,8 @@ def force_of_strength(mass: float, strength: object) -> float:
         return number
     if number > 1.0:
         raise InputError(
-            f"strength: {shown(strength)} times the weight; a share of the weight up to 1, such as "
-            '0.05, is accepted, or a force with its unit, such as "250 kN"'
+            f"strength: {shown(strength)} times the weight; use a share of the weight up to 1, "
+            'such as 0.05, or a force with its unit, such as "250 kN"'
         )
     return number * mass * GRAVITY
 
@@ -113,7 +113,7 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
                     f"{given[0]} by damping"
                 )
             raise InputError(
-                f"{p.name}: missing, but {given[0]} requires it; {_ACCEPTS[p.name].words()}"
+                f"{p.name}: missing, but {given[0]} requires it; add {_ACCEPTS[p.name].words()}"
             )
     values = {key: value for key, value in table.items() if key != "kind"}
     return getattr(law, name)(mass, **values)

@@ -37,7 +37,7 @@ class ExponentialIsolator(IsolatorLaw):
     Parameters
     ----------
     reversal_stiffness
-        Reversal stiffness k_a in N/m, greater than 0; or text such as ``"500 kN/m"``. It is the
+        Reversal stiffness k_a in N/m, greater than 0; or a string such as ``"500 kN/m"``. It is the
         tangent stiffness at u = 0 just after a reversal in a large loop.
     final_stiffness
         Final stiffness k_b in N/m, from 0 to k_a. It is the tangent stiffness at u = 0 long after a
@@ -45,7 +45,7 @@ class ExponentialIsolator(IsolatorLaw):
     decay
         Rate α of the transition from k_a to k_b, in 1/m, greater than 0.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     hardening
         Rate β of hardening at large displacements, in 1/m. A negative β means softening. At 0 the
         law neither hardens nor softens. Default: 0.

@@ -25,12 +25,12 @@ class FrictionIsolator(SpringLaw):
     Parameters
     ----------
     stiffness
-        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or a string such as ``"26.8 kN/m"``.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     friction
-        Friction force F_c in N, at least 0; or text such as ``"120 N"``. It is the same for sliding
-        and for sticking.
+        Friction force F_c in N, at least 0; or a string such as ``"120 N"``. It is the same for
+        sliding and for sticking.
     damping_exponent
         Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
         (s/m)^α. Default: 1.
@@ -69,10 +69,10 @@ class FrictionIsolator(SpringLaw):
         Parameters
         ----------
         mass
-            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or a string such as ``"5000 t"``.
         period
             Natural period T of the mass on the spring while it slides, in s, greater than 0; or
-            text such as ``"2.5 s"``. A friction pendulum of radius R has T = 2π √(R/g) for any
+            a string such as ``"2.5 s"``. A friction pendulum of radius R has T = 2π √(R/g) for any
             mass.
         damping_ratio
             Damping ratio ξ of the parallel dashpot, at least 0. Default: 0.
@@ -112,9 +112,9 @@ class FrictionIsolator(SpringLaw):
         Parameters
         ----------
         mass
-            Mass M on the isolator in kg, greater than 0; or text such as ``"550 kg"``.
+            Mass M on the isolator in kg, greater than 0; or a string such as ``"550 kg"``.
         radius
-            Effective radius R of the concave surface in m, greater than 0; or text such as
+            Effective radius R of the concave surface in m, greater than 0; or a string such as
             ``"2.5 m"``.
         coefficient
             Coefficient of friction μ, at least 0.

@@ -185,12 +185,12 @@ class SpringLaw(IsolatorLaw):
         Parameters
         ----------
         mass
-            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or a string such as ``"5000 t"``.
         period
-            Natural period T of the mass on the linear spring in s, greater than 0; or text such as
-            ``"2.5 s"``.
+            Natural period T of the mass on the linear spring in s, greater than 0; or a string such
+            as ``"2.5 s"``.
         damping_ratio
-            Damping ratio ξ of the parallel dashpot, at least 0; or text such as ``"15 %"``.
+            Damping ratio ξ of the parallel dashpot, at least 0; or a string such as ``"15 %"``.
         **others
             Other fields of the law.
 
@@ -260,16 +260,16 @@ class YieldingLaw(IsolatorLaw):
         Parameters
         ----------
         mass
-            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or a string such as ``"5000 t"``.
         strength
             Characteristic strength Q_d: the force of a hysteresis loop at zero displacement. A
             number is a share of the weight M g, greater than 0 and at most 1. A text such as
             ``"2.5 MN"`` is a force.
         yield_displacement
-            Yield displacement u_y in m, greater than 0; or text such as ``"10 mm"``.
+            Yield displacement u_y in m, greater than 0; or a string such as ``"10 mm"``.
         post_yield_period
             Natural period T_p of the mass on the post-yield stiffness alone, in s, greater than 0;
-            or text such as ``"2.5 s"``.
+            or a string such as ``"2.5 s"``.
         post_yield_damping_ratio
             Damping ratio ξ_p of the dashpot at the post-yield period, at least 0. Yielding
             dissipates far more energy than this dashpot. Default: 0.

@@ -19,9 +19,9 @@ class Isolator(SpringLaw):
     Parameters
     ----------
     stiffness
-        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or a string such as ``"26.8 kN/m"``.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     damping_exponent
         Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
         (s/m)^α. Default: 1.

@@ -19,14 +19,14 @@ class PolynomialIsolator(SpringLaw):
     Parameters
     ----------
     stiffness
-        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or a string such as ``"26.8 kN/m"``.
     damping
-        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or a string such as ``"1.1 kN s/m"``.
     cubic
-        Coefficient k₃ in N/m³; or text such as ``"5 MN/m^3"``. A negative value makes the spring
-        soften. Default: 0.
+        Coefficient k₃ in N/m³; or a string such as ``"5 MN/m^3"``. A negative value makes the
+        spring soften. Default: 0.
     quintic
-        Coefficient k₅ in N/m⁵; or text such as ``"5 MN/m^5"``. Default: 0.
+        Coefficient k₅ in N/m⁵; or a string such as ``"5 MN/m^5"``. Default: 0.
     damping_exponent
         Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
         (s/m)^α. Default: 1.

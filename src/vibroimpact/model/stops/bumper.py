@@ -28,13 +28,13 @@ class Bumper(StopLaw):
     Parameters
     ----------
     stiffness
-        Stiffness K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+        Stiffness K_j in N/m, greater than 0; or a string such as ``"510 kN/m"``.
     damping
-        Damping coefficient C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
+        Damping coefficient C_j in N s/m, at least 0; or a string such as ``"0.9 kN s/m"``.
     gap
-        Gap G0_j in m, or text such as ``"7.5 mm"``. It is the distance from the mass at u = 0 to
-        the undeformed bumper. The total gap of a symmetric rig is twice this gap. A negative gap is
-        a preload: at u = 0 the bumper is compressed by this amount.
+        Gap G0_j in m, or a string such as ``"7.5 mm"``. It is the distance from the mass at u = 0
+        to the undeformed bumper. The total gap of a symmetric rig is twice this gap. A negative gap
+        is a preload: at u = 0 the bumper is compressed by this amount.
 
     Raises
     ------
@@ -71,14 +71,14 @@ class Bumper(StopLaw):
         Parameters
         ----------
         mass
-            Mass M in kg, greater than 0; or text such as ``"550 kg"``.
+            Mass M in kg, greater than 0; or a string such as ``"550 kg"``.
         stiffness
-            Stiffness K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+            Stiffness K_j in N/m, greater than 0; or a string such as ``"510 kN/m"``.
         restitution
             Coefficient of restitution (rebound velocity divided by impact velocity), greater than 0
             and at most 1. At 1 the bumper has no dashpot.
         gap
-            Gap G0_j in m; or text such as ``"7.5 mm"``.
+            Gap G0_j in m; or a string such as ``"7.5 mm"``.
 
         Returns
         -------

@@ -28,15 +28,15 @@ class JankowskiBumper(StopLaw):
     Parameters
     ----------
     stiffness
-        Stiffness k in N/m^1.5, greater than 0; or text such as ``"2 GN/m^1.5"``.
+        Stiffness k in N/m^1.5, greater than 0; or a string such as ``"2 GN/m^1.5"``.
     gap
-        Distance from the mass at u = 0 to the undeformed stop, in m; or text such as ``"7.5 mm"``.
-        A negative gap is a preload.
+        Distance from the mass at u = 0 to the undeformed stop, in m; or a string such as
+        ``"7.5 mm"``. A negative gap is a preload.
     restitution
         Coefficient of restitution e of an impact of the mass m, greater than 0 and at most 1. The
         model reaches it approximately.
     mass
-        Mass m that hits the stop, in kg, greater than 0; or text such as ``"550 kg"``. For two
+        Mass m that hits the stop, in kg, greater than 0; or a string such as ``"550 kg"``. For two
         bodies that hit each other it is m₁ m₂/(m₁ + m₂). Default: None; an `Assembly` then uses
         the two bodies that the stop joins. An `Oscillator` requires the mass.
 

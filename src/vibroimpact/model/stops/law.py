@@ -135,7 +135,7 @@ class FormulaStop(StopLaw):
         if len(values) > len(names):
             raise InputError(
                 f"{type(self).__name__}: {len(values)} values are passed by position, but it has "
-                f"{len(names)} fields; {listed(names)} are accepted"
+                f"{len(names)} fields; pass {listed(names)}"
             )
         super().__init__(**dict(zip(names, values, strict=False)), **named)
 

@@ -45,10 +45,10 @@ class PowerBumper(StopLaw):
     Parameters
     ----------
     stiffness
-        Stiffness k in N/mⁿ, greater than 0; or text such as ``"2 GN/m^1.5"``.
+        Stiffness k in N/mⁿ, greater than 0; or a string such as ``"2 GN/m^1.5"``.
     gap
-        Distance from the mass at u = 0 to the undeformed stop, in m; or text such as ``"7.5 mm"``.
-        A negative gap is a preload.
+        Distance from the mass at u = 0 to the undeformed stop, in m; or a string such as
+        ``"7.5 mm"``. A negative gap is a preload.
     exponent
         Exponent n, at least 1. Default: 1.5.
     dissipation

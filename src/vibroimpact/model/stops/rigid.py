@@ -22,8 +22,9 @@ class RigidStop(StopLaw):
     restitution
         Coefficient of restitution e, from 0 to 1: rebound velocity divided by impact velocity.
     gap
-        Distance from the mass at u = 0 to the wall, in m; or text such as ``"7.5 mm"``. If the gap
-        is negative, the mass rests on the wall, away from u = 0, until the shaking lifts it off.
+        Distance from the mass at u = 0 to the wall, in m; or a string such as ``"7.5 mm"``. If the
+        gap is negative, the mass rests on the wall, away from u = 0, until the shaking lifts it
+        off.
 
     Raises
     ------
