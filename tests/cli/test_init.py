@@ -58,6 +58,21 @@ def test_a_file_shows_contacts(kind, tmp_path):
     assert (motion["event_contact"] >= 1).any()
 
 
+def test_the_isolators_of_the_frame_that_are_comments(tmp_path):
+    """Each is read if it replaces the first one, without an assumption."""
+    path = tmp_path / "start.toml"
+    assert main(["init", str(path), "--kind", "frame"]) == 0
+    text = path.read_text(encoding="utf-8")
+    first = re.search(r"^isolator = .*\n", text, re.M)[0]
+    others = re.findall(r"^# (isolator = .*\n)", text, re.M)
+    laws = []
+    for other in others:
+        path.write_text(text.replace(first, other, 1), encoding="utf-8")
+        laws.append(read_study(path).rig(path).system.links["isolator"].law)
+    lead = vi.BilinearIsolator.from_strength("1000 t", "500 kN", "1 cm", "2.5 s")
+    assert laws == [vi.FrictionIsolator.from_pendulum("1000 t", "1.5 m", 0.05), lead]
+
+
 def test_the_files_and_the_choices_are_the_same():
     stored = {path.name for path in files("vibroimpact.cli").joinpath("study_files").iterdir()}
     assert stored == {f"{kind}.toml" for kind in KINDS}

@@ -5,7 +5,9 @@ polynomials in them, and the first zero of each function that ends a piece is pr
 (`first_zero`). A pressed stop of a fractional power p/q has the unknown w with depth w^q, and all
 series are in a variable in which time goes as the product of q w^(q - 1) of all of these.
 
-Out of reach are friction, dashpots of a power, chatter with rest, and what happens at one instant.
+A link with friction sticks while the force that holds its ends together is within that of friction.
+Out of reach are two links that stick at once, dashpots of a power, chatter with rest, and what
+happens at one instant.
 """
 
 from __future__ import annotations
@@ -68,11 +70,13 @@ class _Link:
 
     def __init__(self, ends: _Ends, isolator: Any) -> None:
         self.ends, self.law = ends, law_of(isolator)
-        if isinstance(self.law, laws.Friction) or isolator.damping_exponent != 1:
+        if isolator.damping_exponent != 1:
             raise ValueError(f"{isolator} is out of reach")
         self.damping = mpf(isolator.damping)
-        self.turns = not isinstance(self.law, laws.Linear | laws.Polynomial)
-        self.z, self.branch, self.way = mpf(0), 0, 0
+        self.friction = mpf(getattr(self.law, "friction", 0))
+        smooth = isinstance(self.law, laws.Linear | laws.Polynomial)
+        self.turns = bool(self.friction) or not smooth
+        self.z, self.branch, self.way, self.sticks = mpf(0), 0, 0, False
 
     def moves(self, rate: mpf) -> None:
         """Note which way s = u_right - u_left goes."""
@@ -80,6 +84,8 @@ class _Link:
         if way != self.way and isinstance(self.law, laws.Bilinear):
             self.branch = 0
         self.way = way
+        if self.friction:
+            self.sticks = not way
         if isinstance(self.law, laws.BoucWen):
             self.branch = laws.sign(self.z) or way
 
@@ -254,8 +260,10 @@ class _Run:
             here = -link.ends.apart(self.u)
             way, branch = link.way, link.branch
             jet = restoring(link.law, tape, s, times(rate, clock), z, way, branch, here)
+            if link.friction and not link.sticks:
+                jet = jet + link.friction * way
             push(link.ends, (jet + rate * link.damping) * -1)
-            if link.turns:
+            if link.turns and not link.sticks:
                 waiting.append((("turn", i), rate * way))
             if isinstance(link.law, laws.Bilinear) and not branch:
                 waiting.append((("yield", i), z * -way + link.law.limit))
@@ -292,6 +300,14 @@ class _Run:
                 push(stop.ends, jet)
                 pressing.append((stop, jet))
         base = sine * size
+        for i, link in enumerate(self.links):
+            if link.sticks:
+                hold = self._hold(link, force, base)
+                push(link.ends, hold)
+                waiting += [
+                    (("left", i), hold * -1 + link.friction),
+                    (("right", i), hold + link.friction),
+                ]
         for i in range(n):
             u[i].rate = times(v[i], clock)
             v[i].rate = times(force[i] * (1 / self.masses[i]) - base, clock)
@@ -299,6 +315,34 @@ class _Run:
         turn = order * self.shaking.omega
         sine.rate, cosine.rate = times(cosine * turn, clock), times(sine * -turn, clock)
         return waiting, pressing
+
+    def _hold(self, link: _Link, force: list[Any], base: Any) -> Any:
+        """Force on the right body that holds the ends of a link together, of jets or numbers."""
+        if sum(other.sticks for other in self.links) > 1:
+            raise ArithmeticError(f"two links stick at t = {mp.nstr(self.t, 20)}")
+        left, right = link.ends
+        apart, ease = base * 0, mpf(0)
+        for i, sign in ((left, 1), (right, -1)):
+            if i is not None:
+                apart = apart + (force[i] * (1 / self.masses[i]) - base) * sign
+                ease += 1 / self.masses[i]
+        return apart * (1 / ease)
+
+    def _comes_to_rest(self, i: int) -> None:
+        """A link with friction turns: it sticks if friction can hold it."""
+        link = self.links[i]
+        before, link.sticks = link.way, True
+        left, right = link.ends
+        if right is None:
+            self.v[left] = mpf(0)
+        else:
+            self.v[right] = mpf(0) if left is None else self.v[left]
+        tape = Tape()
+        waiting, _ = self._series(tape)
+        tape.run(self.step, 1)
+        if any(jet.c[0] < 0 for key, jet in waiting if key in (("left", i), ("right", i))):
+            link.sticks = False
+            link.moves(mpf(-before))
 
     # -- events
 
@@ -312,12 +356,19 @@ class _Run:
         self.known[what, i] = 1
         if what in ("turn", "yield", "zero"):
             link = self.links[i]
-            if what == "turn":
+            if what == "turn" and link.friction:
+                self._comes_to_rest(i)
+            elif what == "turn":
                 link.moves(mpf(-link.way))
             elif what == "yield":
                 link.z, link.branch = link.way * link.law.limit, 1
             else:
                 link.z, link.branch = mpf(0), link.way
+            return
+        if what in ("left", "right"):
+            # It slides off with neither a speed nor an acceleration.
+            self.links[i].moves(mpf(-1 if what == "left" else 1))
+            self.known["turn", i] = 2
             return
         stop = self.stops[i]
         side = stop.side

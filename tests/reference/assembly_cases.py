@@ -44,6 +44,7 @@ BOUC_WEN = vi.BoucWenIsolator(400.0, 60.0, 3.0, 0.8)
 SHARP = vi.BoucWenIsolator(500.0, 80.0, 2.0, 0.8, exponent=3)
 BILINEAR = vi.BilinearIsolator(500.0, 70.0, 2.0, 0.8)
 EXPONENTIAL = vi.ExponentialIsolator(400.0, 60.0, 40.0, 0.8)
+PENDULUM = vi.FrictionIsolator.from_pendulum(3.0, 0.25, 0.04)
 BUMPER = vi.Bumper(1.5e4, 15.0, 0.012)
 ELASTIC = vi.Bumper(1e4, 0.0, 0.015)
 HUNT = vi.PowerBumper(2e5, 0.012, dissipation=0.5)
@@ -86,6 +87,18 @@ CASES = {
         {"r": ("base", "ground", HUNT), "l": ("ground", "base", HUNT)},
         3.0,
         1.1,
+        {"base": 0.1, "mid": 0.15, "top": 0.2},
+    ),
+    "three, friction pendulum base between bumpers": case(
+        {"base": 1.2, "mid": 1.0, "top": 0.8},
+        {
+            "i": ("ground", "base", PENDULUM),
+            "m": ("base", "mid", STOREY),
+            "t": ("mid", "top", STOREY),
+        },
+        {"r": ("base", "ground", BUMPER), "l": ("ground", "base", HUNT)},
+        3.0,
+        0.7,
         {"base": 0.1, "mid": 0.15, "top": 0.2},
     ),
     "three in a row, bouc-wen, powers": case(

@@ -21,6 +21,7 @@ ONE_MASS: dict[str, tuple[Any, Any, Any]] = {
     ),
     "bilinear, powers": (laws.BILINEAR, laws.HUNT, laws.RESTITUTION),
     "cubic, rigid": (laws.CUBIC, vi.RigidStop(0.6, 0.012), laws.SQUARE),
+    "friction, bumpers": (vi.FrictionIsolator(120.0, 1.0, 0.9), laws.BUMPER, laws.HUNT),
     "exponential, elastic": (laws.EXPONENTIAL, laws.ELASTIC, laws.BUMPER),
 }
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import mpmath as mp
 import numpy as np
 import pytest
 
+from engine.assembly.exact import Exact
 from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, full_mass, neighbours, row, storeys
 from vibroimpact.engine.assembly import layout as at
@@ -77,3 +79,46 @@ def test_a_deformation_that_outlives_the_section() -> None:
         found = (sides[0] - sides[1])[at.PARTS : at.PARTS + width] / (2 * step)
         assert abs(q[i]).max() > 1e-3
         assert abs(found - q[i]).max() <= 1e-6 * abs(q[i]).max()
+
+
+APART = 1e-9
+"""Time (s) between two contacts, of a period of 0.6 s."""
+
+
+def exact_motion(system: System, state, lasts: float, moved: int | None = None) -> Exact:
+    """A motion in 50 digits, from a state of which one number is moved by 1e-25."""
+    exact = Exact(*system[:5], system.amplitude, system.omega, system.constant, grid=1.5e-3)
+    n = system.n
+    exact.y[: 2 * n] = [mp.mpf(x) for x in state[2 : 2 + 2 * n].tolist()]
+    if moved is not None:
+        exact.y[moved] += mp.mpf("1e-25")
+    exact.advance(lasts, 0, (np.sin(0.3), np.cos(0.3)))
+    return exact
+
+
+@pytest.mark.parametrize("later", [0, 1])
+@pytest.mark.parametrize("restitution", [None, 0.8])
+def test_contacts_almost_at_once(restitution: float | None, later: int) -> None:
+    """The mass in the middle meets both others, the one 1e-9 s after the other."""
+    system = row(restitution)
+    state = system.state(v=[0.9, 0.3, -0.5])
+    for stop in (0, 1):
+        alone = exact_motion(system._replace(stops=[]), state, 0.02 + (stop == later) * APART)
+        gap = float(alone.y[stop] - alone.y[stop + 1])
+        system.stops[stop] = system.stops[stop]._replace(gap=gap)
+    lasts, n = system.period, system.n
+    q = np.eye(2 * n + 3)[: 2 * n].copy()
+    lines = sections(0.3, lasts, 1)
+    end, count = carried(system, state, lines, q)
+    true = exact_motion(system, state, lasts)
+    (_, first, one, _), (_, second, other, _) = true.events[:2]
+    assert (one, other) == (1 - later, later)
+    # A rigid impact speeds the other pair up.
+    assert 0.3 * APART < second - first < 1.001 * APART
+    assert count == len(true.events) >= 4
+    assert abs(end[2 : 2 + 2 * n] - np.array(true.y[: 2 * n], float)).max() <= 1e-12
+    for i in range(2 * n):
+        beside = exact_motion(system, state, lasts, i)
+        pairs = zip(beside.y[: 2 * n], true.y[: 2 * n], strict=True)
+        found = np.array([float((a - b) * mp.mpf("1e25")) for a, b in pairs])
+        assert abs(found - q[i, : 2 * n]).max() <= 1e-11 * abs(found).max()

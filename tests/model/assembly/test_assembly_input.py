@@ -102,11 +102,37 @@ BAD = {
     ),
     "period": (
         lambda: building(links=linked(period="2 s", damping_ratio=0.1)),
-        r"^links\.storey\.period: only a link between 'ground' and a mass of",
+        r"^links\.storey\.period: needs the mass that this link carries, which is not known "
+        r"between two masses; state the mass as carries, or write the fields of the law",
     ),
     "period of no mass": (
         lambda: building(links={"x": {"left": GROUND, "right": "bas", "period": 1}}),
-        r"^links\.x\.period: only a link between 'ground' and a mass of",
+        r"^links\.x\.right: 'bas' is not a mass; did you mean 'base'\?",
+    ),
+    "share of a mass": (
+        lambda: building(
+            links={
+                **LINKS,
+                "x": {
+                    "left": GROUND,
+                    "right": "roof",
+                    "kind": "bilinear",
+                    "strength": "5 kN",
+                    "yield_displacement": "1 cm",
+                    "post_yield_period": 1,
+                },
+            }
+        ),
+        r"^links\.x\.post_yield_period: needs the mass that this link carries, of which "
+        r"links\.isolator carries an unknown share; state",
+    ),
+    "carries what nothing needs": (
+        lambda: building(links=linked(stiffness=1, damping=0, carries="5 t")),
+        r"^links\.storey\.carries: '5 t', but no other key of this link needs the mass; remove it",
+    ),
+    "carries a length": (
+        lambda: building(links=linked(period=1, damping_ratio=0, carries="5 m")),
+        r"^links\.storey\.carries: '5 m' is a length",
     ),
     "no damping ratio": (
         lambda: building(links={"x": {"left": GROUND, "right": "base", "period": 1}}),
@@ -356,12 +382,76 @@ def test_a_link_to_the_ground_has_the_period_of_its_mass(ends):
     assert made.natural_frequencies[-1] == pytest.approx(2.5)
 
 
-def test_the_period_of_a_mass_that_carries_others_is_doubted():
-    feet = {"left": GROUND, "right": "base", "period": "2 s", "damping_ratio": 0.1}
-    with pytest.warns(
-        vi.InputWarning, match=r"^links\.feet\.period: .*'base' alone .*'storey' join"
+FRAME = {"base": "300 t", "first": "250 t", "second": "250 t", "roof": "200 t"}
+STOREYS = {
+    f"storey_{i}": vi.Link(*ends, vi.Isolator("150 MN/m", 0.0))
+    for i, ends in enumerate((("base", "first"), ("second", "first"), ("second", "roof")))
+}
+PENDULUM = {"kind": "friction", "radius": "1.5 m", "coefficient": 0.05}
+LEAD = {
+    "kind": "bilinear",
+    "strength": "500 kN",
+    "yield_displacement": "1 cm",
+    "post_yield_period": "2.5 s",
+}
+
+
+@pytest.mark.parametrize("ends", [(GROUND, "base"), ("base", GROUND)])
+@pytest.mark.parametrize("order", [1, -1])
+def test_an_isolator_carries_all_that_stands_on_it(ends, order):
+    """The isolator of a frame, by a radius or a period, is that of the whole mass."""
+    left, right = ends
+
+    def frame(**table):
+        links = {**STOREYS, "isolator": {"left": left, "right": right, **table}}
+        return vi.Assembly(FRAME, dict(list(links.items())[::order]))
+
+    told = "the mass that this link carries is assumed to be 1000 t, that of 'base', 'first', 'sec"
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.radius: {told}"):
+        made = frame(**PENDULUM)
+    law = made.links["isolator"].law
+    assert law == vi.FrictionIsolator.from_pendulum("1000 t", "1.5 m", 0.05)
+    assert (law.stiffness, law.friction) == pytest.approx((6537.77e3, 490.33e3), rel=1e-5)
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.post_yield_period: {told}"):
+        made = frame(**LEAD)
+    values = {key: value for key, value in LEAD.items() if key != "kind"}
+    assert made.links["isolator"].law == vi.BilinearIsolator.from_strength("1000 t", **values)
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.strength: {told}"):
+        made = frame(**{**LEAD, "strength": 0.05})
+    assert made.links["isolator"].law == vi.BilinearIsolator.from_strength(
+        "1000 t", **{**values, "strength": 0.05}
+    )
+    # Dimensionless numbers are written without units.
+    with pytest.warns(vi.InputWarning, match=r"assumed to be 3, that of 'a' and 'b'"):
+        vi.Assembly(
+            {"a": 1.0, "b": 2.0},
+            {
+                "k": {"left": GROUND, "right": "a", "period": 1.0, "damping_ratio": 0.0},
+                "s": vi.Link("b", "a", vi.Isolator(1.0, 0.0)),
+            },
+            units="none",
+        )
+
+
+def test_the_mass_that_a_link_carries_can_be_stated():
+    """Where several isolators share a load, between two masses, with matrices, and of one base."""
+    half = {"left": GROUND, "right": "base", **PENDULUM, "carries": "500 t"}
+    made = vi.Assembly(FRAME, {**STOREYS, "a": half, "b": half})
+    assert made.stiffness_matrix[0, 0] == pytest.approx(150e6 + 1e6 * 9.80665 / 1.5)
+    storey = linked(period="2 s", damping_ratio=0.1, carries="250 t")
+    law = vi.Isolator.from_period("250 t", "2 s", 0.1)
+    assert building(links=storey).links["storey"].law == law
+    made = vi.Assembly.from_matrices(
+        [[2.0]], None, [[1.0]], links={"a": {**half, "right": "dof_1"}}
+    )
+    assert made.links["a"].law == vi.FrictionIsolator.from_pendulum("500 t", "1.5 m", 0.05)
+    assert type(made)(**made.model_dump()) == made
+    with pytest.raises(
+        InputError, match=r"^links\.a\.radius: .* is not known from matrices; state"
     ):
-        building(links={"storey": LINKS["storey"], "feet": feet})
+        vi.Assembly.from_matrices(
+            [[2.0]], None, [[1.0]], links={"a": {"left": GROUND, "right": "dof_1", **PENDULUM}}
+        )
 
 
 def test_states_are_by_name():

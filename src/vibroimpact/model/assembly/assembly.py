@@ -7,8 +7,8 @@ displacements relative to the base, and ``ι`` is 1 for each mass.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from functools import cached_property
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self
 
@@ -17,15 +17,14 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_path
-from vibroimpact.errors import InputError, errors_at, shown, warn_of_input
+from vibroimpact.errors import InputError, errors_at, shown
+from vibroimpact.model.assembly.carried_mass import CarriedMasses
 from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping, Modes
 from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
 from vibroimpact.model.assembly.numbers import AssemblyNumbers, made_of
 from vibroimpact.model.frozen_mapping import FrozenMapping
-from vibroimpact.model.isolators import IsolatorLaw
-from vibroimpact.model.isolators.design import design_keys
 from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import check_no_units
@@ -56,9 +55,11 @@ class Assembly(Model):
         ``"300 t"``.
     links
         Mapping from names to objects `Link` with the law of an isolator. A mapping with the keys
-        ``left``, ``right`` and those of the law is also accepted. Between ``"ground"`` and one of
-        the masses, it may have a period and a damping ratio, or other design values of the law:
-        those of this mass alone on the link. Default: no links.
+        ``left``, ``right`` and those of the law is also accepted. It may have a period and a
+        damping ratio, or other design values of the law, which use the mass that the link carries:
+        ``carries``. Default of ``carries``, only for a link between ``"ground"`` and a mass: the
+        sum of this mass and of those that links join to it, if none of them has another link to the
+        ground. Such a sum is stated in a warning. Default: no links.
     stops
         Mapping from names to objects `Link` with the law of a stop, or such mappings. A
         `JankowskiBumper` without a mass has m₁ m₂/(m₁ + m₂) of the two bodies. A mapping of a
@@ -234,29 +235,25 @@ class Assembly(Model):
             }
         )
 
-        def meeting(left: str, right: str) -> float:
+        def meeting(left: str, right: str, keys: Sequence[str]) -> float:
             where = [one for one in (left, right) if one != GROUND]
             for one in where:
-                check_body(one, names, "restitution")
+                check_body(one, names, keys[0])
             if matrices is None:
                 return 1.0 / sum(1.0 / masses[one] for one in where)
             return _meeting(np.array(matrices.mass), _closing(left, right, list(names)))
 
-        def alone(left: str, right: str) -> float | None:
-            if GROUND not in (left, right):
-                return None
-            return masses.get(right if left == GROUND else left)
-
+        carried = CarriedMasses(masses, names, given["links"], data.get("units"))
         for part, is_stop in (("links", False), ("stops", True)):
             found = {}
             for name, value in given[part].items():
                 where = f"{part}.{check_part_name(name, part)}"
-                mass = meeting if is_stop else alone
+                mass = meeting if is_stop else partial(carried.of, name)
                 found[name] = read_link(value, where, is_stop=is_stop, mass=mass)
                 for end in ("left", "right"):
                     check_body(getattr(found[name], end), names, f"{where}.{end}")
             read[part] = FrozenMapping(found)
-        _doubt_periods(given["links"], read["links"])
+        carried.warn()
         return read
 
     @model_validator(mode="after")
@@ -505,32 +502,6 @@ def _closing(left: str, right: str, names: list[str]) -> NDArray[np.float64]:
         if end != GROUND:
             found[names.index(end)] += sign
     return found
-
-
-def _doubt_periods(tables: Mapping[str, Any], links: Mapping[str, Link]) -> None:
-    """Issue a warning if a link has a design value of a mass that further links join to others."""
-    for name, table in tables.items():
-        law = links[name].law
-        if not isinstance(table, Mapping) or not isinstance(law, IsolatorLaw):
-            continue
-        by = [key for key in design_keys(type(law)) if key in table]
-        by = [key for key in by if key not in type(law).model_fields]
-        ends = {links[name].left, links[name].right} - {GROUND}
-        joined = [
-            other
-            for other, link in links.items()
-            if other != name and GROUND not in (link.left, link.right)
-            if ends & {link.left, link.right}
-        ]
-        if by and joined:
-            (mass,) = ends
-            warn_of_input(
-                f"links.{name}.{by[0]}",
-                [
-                    f"it is that of {mass!r} alone on this link, without the masses that "
-                    f"{', '.join(map(repr, joined))} join to it"
-                ],
-            )
 
 
 def _table(value: Any, part: str) -> Mapping[str, Any]:

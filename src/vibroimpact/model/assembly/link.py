@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any, TypeAlias, cast, get_args
 
 from pydantic import ConfigDict, field_validator, model_serializer, model_validator
@@ -11,16 +12,19 @@ from vibroimpact.errors import InputError, errors_at, shown
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
-from vibroimpact.model.isolators.design import design_keys, designed
+from vibroimpact.model.isolators.design import designed, keys_of_mass
 from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
+from vibroimpact.model.quantities import MASS
 from vibroimpact.model.stops import STOPS, Bumper, Stop
 from vibroimpact.model.stops.bumper import returning
-from vibroimpact.model.validation import Model, takes_fields
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 
 AnyLaw: TypeAlias = AnyIsolator | Stop
 """A law of a link or of a stop."""
 _LAWS = (*get_args(AnyIsolator), *get_args(Stop))
+_CARRIES = "carries"
+_MASS = Accepts(MASS, above=0.0, meaning="mass")
 
 
 class Link(Model):
@@ -114,7 +118,9 @@ class Link(Model):
         return f"Link({self.left} → {self.right}, {self.law})"
 
 
-def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
+def read_link(
+    value: Any, where: str, *, is_stop: bool, mass: Callable[[str, str, list[str]], float]
+) -> Link:
     """Return a link or a stop of an assembly from a `Link` or from a table.
 
     A table has the keys ``left``, ``right`` and those of the law.
@@ -128,10 +134,10 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
     is_stop
         Whether a stop is expected.
     mass
-        Function of the left and the right body that returns a mass (kg). Of a stop, the mass that
-        meets there, by which the ``restitution`` of a table of a `Bumper` determines its damping.
-        Of a link, the mass on it, by which design values such as a period determine its law; None
-        if the link does not join one mass to the base.
+        Function of the left body, the right body and the keys that use the mass, which returns it
+        (kg). Of a stop, the mass that meets there, by which the ``restitution`` of a table of a
+        `Bumper` determines its damping. Of a link without ``carries``, the mass on it, by which
+        design values such as a period determine its law.
 
     Raises
     ------
@@ -159,24 +165,27 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
     ends = (value["left"], value["right"])
     table = {name: one for name, one in value.items() if name not in ("left", "right")}
     with errors_at(f"{where}."):  # a law names its own fields
-        return Link(*ends, _law(table, STOPS if is_stop else ISOLATORS, mass(*ends)))
+        return Link(*ends, _law(table, STOPS if is_stop else ISOLATORS, partial(mass, *ends)))
 
 
-def _law(table: Mapping[str, Any], kinds: Kinds, mass: float | None) -> Any:
+def _law(table: Mapping[str, Any], kinds: Kinds, mass: Callable[[list[str]], float]) -> Any:
     kind = kinds.kind_of(table)
     law = kinds.classes.get(kind)
     if law is None:
         raise InputError(f"kind: {kinds.unknown(table)}")
     if issubclass(law, IsolatorLaw):
-        if mass is not None:
-            return law.model_validate(designed(table, law, mass))
-        for key in design_keys(law):
-            if key in table and key not in law.model_fields:
+        by = keys_of_mass(table, law)
+        if _CARRIES in table:
+            carried = _MASS.at(table[_CARRIES], _CARRIES)
+            if not by:
                 raise InputError(
-                    f"{key}: only a link between {GROUND!r} and a mass of [assembly.masses] has a "
-                    "period or a strength, those of this mass alone on it; write the fields of the "
-                    "law, such as stiffness and damping"
+                    f"{_CARRIES}: {shown(table[_CARRIES])}, but no other key of this link needs "
+                    "the mass; remove it"
                 )
+            table = {name: one for name, one in table.items() if name != _CARRIES}
+        elif by:
+            carried = mass(by)
+        return law.model_validate(designed(table, law, carried) if by else table)
     if law is Bumper and "restitution" in table:
-        table = returning(table, mass)
+        table = returning(table, mass(["restitution"]))
     return law.model_validate(table)

@@ -131,6 +131,24 @@ def design_keys(law: type[IsolatorLaw]) -> list[str]:
     return list(dict.fromkeys(p.name for name in law.designs for p in _arguments(law, name)))
 
 
+def keys_of_mass(table: Mapping[str, Any], law: type[IsolatorLaw]) -> list[str]:
+    """Return the keys of a table that use the mass on the isolator, such as a period.
+
+    If it has none of these, but other design values, return those.
+
+    Raises
+    ------
+    InputError
+        If a strength is invalid.
+    """
+    own = design_keys(law)
+    given = [key for key in table if key in own and key not in law.model_fields]
+    free = {"yield_displacement"}
+    if "strength" in given and force_of_strength(0.0, table["strength"]):
+        free.add("strength")  # a force; a share of the weight of no mass is 0
+    return [key for key in given if key not in free] or given
+
+
 def _arguments(law: type[IsolatorLaw], name: str) -> list[inspect.Parameter]:
     """Return the arguments of one of its designs, other than the mass."""
     takes = inspect.signature(getattr(law, name)).parameters.values()
