@@ -16,6 +16,7 @@ from matplotlib.colors import to_rgb
 import vibroimpact as vi
 from earthquakes.rigs import noise
 from vibroimpact import figures
+from vibroimpact.figures.assembly import PENS
 from vibroimpact.figures.assembly_animation import save_animation
 
 
@@ -361,14 +362,17 @@ def test_an_animated_gif_moves(tmp_path) -> None:
     path = save_animation(motion(), tmp_path / "motion.gif", duration=0.5, title="Neighbours")
     with Image.open(path) as picture:
         assert picture.n_frames == 10
+        assert picture.size[0] >= 1000
         frames = []
         for k in (0, 5):
             picture.seek(k)
             frames.append(np.asarray(picture.convert("RGB"), dtype=int))
         assert picture.info["loop"] == 0
     assert (np.abs(frames[0] - frames[1]).max(axis=2) > 100).mean() > 1e-3
-    red = np.abs(frames[0] - 255 * np.array(to_rgb("#c8102e"))).max(axis=2) < 40
-    assert red.any()
+    for pen in PENS.values():
+        seen = np.abs(frames[0] - np.rint(255 * np.array(to_rgb(pen.colour)))).max(axis=2) < 40
+        assert seen.any(), pen
+    assert (frames[0][0, frames[0].shape[1] // 2] == 255).all()  # the paper
 
 
 def test_an_animated_page_has_the_motion(tmp_path) -> None:
@@ -376,6 +380,8 @@ def test_an_animated_page_has_the_motion(tmp_path) -> None:
     text = path.read_text(encoding="utf-8")
     assert "<h1>a &lt;/script&gt; b</h1>" in text
     assert not re.search(r"(src|href)=", text)  # nothing from elsewhere
+    assert re.search(r'<svg width="100%" viewBox="0 0 [\d.]+ [\d.]+"', text)
+    assert "max-width" not in text
     data = json.loads(re.search(r"const data = (.*);\n", text)[1].replace("<\\/", "</"))
     assert len(data["values"]) == len(data["times"]) <= 300
     at = motion()["time"].values
@@ -389,7 +395,7 @@ def test_an_animated_page_has_the_motion(tmp_path) -> None:
     index = list(BUILDINGS.stops).index("pounding_3")
     clearance = motion()["clearance"].sel(stop="pounding_3").values
     (face,) = (one for one in data["shapes"] if one["stop"] == index and len(one["points"]) == 2)
-    stem = [one for one in data["shapes"] if one["width"] == 2.0][2]
+    stem = [one for one in data["shapes"] if one["above"]][2]
     shift = np.array(data["values"])
     scale = stem["points"][0][2][0][1]
 
