@@ -309,6 +309,25 @@ def test_a_rigid_stop_has_impulses() -> None:
     assert "force" in axes[1].get_ylabel()
 
 
+@pytest.mark.parametrize("dense", [True, False])
+def test_the_spectrum_of_each_mass_has_its_own_panel(dense) -> None:
+    highest = 9.0
+    long = vi.simulate(vi.Rig(PAIR, vi.Harmonic("0.3 g", "1.6 Hz")), 40, samples=32)
+    lines = vi.fourier_spectrum(long if dense else motion())
+    axes = figures.mass_spectra(lines, highest=highest)
+    assert [ax.get_title(loc="left") for ax in axes] == list(lines["mass"].values)
+    assert {ax.get_yscale() for ax in axes} == {"log"}
+    assert len({ax.get_ylim() for ax in axes}) == 1
+    assert "(g)" in axes[0].figure.get_supylabel()  # as all accelerations of several masses
+    kept = lines["order"].values <= highest
+    for ax in axes:
+        mine = lines["acceleration_amplitude"].sel(mass=ax.get_title(loc="left")).values[kept]
+        np.testing.assert_allclose(ax.lines[0].get_ydata(), mine / 9.80665, rtol=1e-12)
+        assert mine.max() / 9.80665 < ax.get_ylim()[1]
+        assert bool(ax.collections) != dense
+    assert [bool(ax.child_axes) for ax in axes] == [True] + [False] * (len(axes) - 1)
+
+
 def test_branches_of_each_mass_with_their_contacts() -> None:
     data = branch()
     axes = figures.mass_branches(data, sweep=vi.sweep(vi.Rig(PAIR, "0.2 g"), [1.6, 2.0, 2.6]))
@@ -343,6 +362,13 @@ def test_branches_of_each_mass_with_their_contacts() -> None:
             lambda: figures.resonance_family(vi.sweeps([vi.Rig(PAIR, "0.2 g")], [1.6])),
             "data: it is of an Assembly of several masses; draw it with figures.mass_resonance",
         ),
+        (
+            lambda: figures.spectrum_lines(vi.fourier_spectrum(motion())),
+            "spectra: it is of an Assembly of several masses; draw it with figures.mass_spectra",
+        ),
+        (lambda: figures.mass_spectra(motion()), "spectrum: this is not a spectrum of several"),
+        (lambda: figures.mass_spectra(vi.fourier_spectrum(motion()), quantity="x"), "quantity: "),
+        (lambda: figures.mass_spectra(vi.fourier_spectrum(motion()), highest=0), "highest: 0"),
         (lambda: figures.phase_portrait(motion()), "motion: it is of an Assembly of several"),
         (lambda: figures.mass_histories(motion(), axes=[1]), "axes: 1 given; 6 are accepted"),
         (lambda: save_animation(motion(), "motion.mp4"), "path: 'motion.mp4' does not end in .gif"),
