@@ -219,6 +219,13 @@ def test_forces_and_impulses_of_the_stops() -> None:
     assert axes["wall"].get_ylabel().replace("\n", " ") == "impulse (kN s)"
 
 
+def test_the_bands_of_contact_forces_have_a_key() -> None:
+    axes = figures.contact_forces(motion(), stops=["pounding_3", "pounding_2"])
+    names = [text.get_text() for text in axes[0].get_legend().get_texts()]
+    assert names == ["contact, pounding_3", "contact, pounding_2"]
+    assert axes[1].get_legend() is None
+
+
 def test_an_impulse_between_two_masses_is_the_change_of_momentum() -> None:
     data = vi.simulate(vi.Rig(DAMPER), 1, vi.State(velocity={"ball": 5.0}), samples=4096)
     hit = int(np.flatnonzero(data["event_contact"].values == 2)[0])
