@@ -286,7 +286,7 @@ def test_a_portrait_is_shaded_beyond_the_gap() -> None:
     assert figures.pair_portrait(motion(), "north3", "ground", quantity="approach").lines
 
 
-def test_resonance_curves_are_shaded_where_the_mass_is_touched() -> None:
+def test_resonance_curves_are_shaded_where_a_stop_is_touched() -> None:
     data = swept()
     axes = dict(zip(BUILDINGS.names, figures.mass_resonance(data), strict=True))
     ax = axes["north3"]
@@ -294,13 +294,17 @@ def test_resonance_curves_are_shaded_where_the_mass_is_touched() -> None:
         ax.lines[0].get_ydata(),
         1e3 * data["peak_displacement"].sel(direction="forward", mass="north3"),
     )
-    assert not [one for one in axes["north1"].patches if one.get_width() > 0.0]
-    hit = (data["impacts"].sel(stop=["pounding_3"]) > 0.0).any("stop")
-    edges = np.array([(one.get_x(), one.get_x() + one.get_width()) for one in ax.patches])
-    for f, touched in zip(data["frequency"].values, hit.any("direction").values, strict=True):
-        assert touched == bool(((edges[:, 0] <= f) & (f <= edges[:, 1])).any()), f
-    assert hit.any()
-    assert not hit.all()
+    impacts = data["impacts"] > 0.0
+    (stop,) = figures.mass_resonance(data, quantity="peak_force", names=["pounding_3"])
+    for panel, hit in (
+        (stop, impacts.sel(stop="pounding_3")),
+        *((one, impacts.any("stop")) for one in axes.values()),
+    ):
+        edges = np.array([(one.get_x(), one.get_x() + one.get_width()) for one in panel.patches])
+        for f, touched in zip(data["frequency"].values, hit.any("direction").values, strict=True):
+            assert touched == bool(((edges[:, 0] <= f) & (f <= edges[:, 1])).any()), f
+        assert hit.any()
+        assert not hit.all()
 
 
 def test_a_rigid_stop_has_impulses() -> None:
@@ -314,6 +318,22 @@ def test_a_rigid_stop_has_impulses() -> None:
     )
     assert float(data["peak_impulse"].max()) > 0.0
     assert "force" in axes[1].get_ylabel()
+
+
+def test_an_orbit_that_touches_looks_so_in_the_panels_of_all_masses() -> None:
+    wall = {"wall": vi.Link("south3", "ground", vi.Bumper("500 MN/m", "2 MN s/m", "3 cm"))}
+    assembly = BUILDINGS.replace(stops=wall)
+    shaken = vi.Rig(assembly, vi.Harmonic("0.1 g", "1.4 Hz"))
+    data = vi.branch(shaken, vary={"frequency": (1.3, 1.5)})
+    swept = vi.sweep(vi.Rig(assembly, "0.1 g"), [1.2, 1.4, 1.6])
+    hit = swept["peak_force"].sel(stop="wall").values > 0.0
+    assert hit.any()
+    shades = [len(ax.patches) for ax in figures.mass_resonance(swept)]
+    assert shades[0] > 0
+    assert len(set(shades)) == 1
+    widths = [{one.get_linewidth() for one in ax.lines} for ax in figures.mass_branches(data)]
+    assert max(widths[0]) > 1.5
+    assert all(one == widths[0] for one in widths)
 
 
 @pytest.mark.parametrize("dense", [True, False])
