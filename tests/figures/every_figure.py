@@ -275,8 +275,11 @@ EVERY: dict[str, Drawn] = {
     "mass_resonance, forces": Drawn(
         _over(masses.swept, figures.mass_resonance, quantity="peak_force"), 3
     ),
-    "spectrum_lines, masses": Drawn(
-        lambda **how: figures.spectrum_lines(vi.fourier_spectrum(masses.motion()), **how)
+    "mass_spectra": Drawn(
+        lambda **how: figures.mass_spectra(vi.fourier_spectrum(masses.motion()), **how), 6
+    ),
+    "mass_spectra, no units": Drawn(
+        lambda **how: figures.mass_spectra(vi.fourier_spectrum(masses.ball()), **how), 2
     ),
     "section_diagram, masses": Drawn(_over(masses.diagram, figures.section_diagram), 4),
     "basin_portrait, masses": Drawn(_over(masses.plane, figures.basin_portrait)),

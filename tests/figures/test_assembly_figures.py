@@ -16,6 +16,7 @@ from matplotlib.colors import to_rgb
 import vibroimpact as vi
 from earthquakes.rigs import noise
 from vibroimpact import figures
+from vibroimpact.figures.assembly import PENS
 from vibroimpact.figures.assembly_animation import save_animation
 
 
@@ -218,6 +219,13 @@ def test_forces_and_impulses_of_the_stops() -> None:
     assert axes["wall"].get_ylabel().replace("\n", " ") == "impulse (kN s)"
 
 
+def test_the_bands_of_contact_forces_have_a_key() -> None:
+    axes = figures.contact_forces(motion(), stops=["pounding_3", "pounding_2"])
+    names = [text.get_text() for text in axes[0].get_legend().get_texts()]
+    assert names == ["contact, pounding_3", "contact, pounding_2"]
+    assert axes[1].get_legend() is None
+
+
 def test_an_impulse_between_two_masses_is_the_change_of_momentum() -> None:
     data = vi.simulate(vi.Rig(DAMPER), 1, vi.State(velocity={"ball": 5.0}), samples=4096)
     hit = int(np.flatnonzero(data["event_contact"].values == 2)[0])
@@ -276,7 +284,7 @@ def test_a_portrait_is_shaded_beyond_the_gap() -> None:
     assert figures.pair_portrait(motion(), "north3", "ground", quantity="approach").lines
 
 
-def test_resonance_curves_are_shaded_where_the_mass_is_touched() -> None:
+def test_resonance_curves_are_shaded_where_a_stop_is_touched() -> None:
     data = swept()
     axes = dict(zip(BUILDINGS.names, figures.mass_resonance(data), strict=True))
     ax = axes["north3"]
@@ -284,13 +292,17 @@ def test_resonance_curves_are_shaded_where_the_mass_is_touched() -> None:
         ax.lines[0].get_ydata(),
         1e3 * data["peak_displacement"].sel(direction="forward", mass="north3"),
     )
-    assert not [one for one in axes["north1"].patches if one.get_width() > 0.0]
-    hit = (data["impacts"].sel(stop=["pounding_3"]) > 0.0).any("stop")
-    edges = np.array([(one.get_x(), one.get_x() + one.get_width()) for one in ax.patches])
-    for f, touched in zip(data["frequency"].values, hit.any("direction").values, strict=True):
-        assert touched == bool(((edges[:, 0] <= f) & (f <= edges[:, 1])).any()), f
-    assert hit.any()
-    assert not hit.all()
+    impacts = data["impacts"] > 0.0
+    (stop,) = figures.mass_resonance(data, quantity="peak_force", names=["pounding_3"])
+    for panel, hit in (
+        (stop, impacts.sel(stop="pounding_3")),
+        *((one, impacts.any("stop")) for one in axes.values()),
+    ):
+        edges = np.array([(one.get_x(), one.get_x() + one.get_width()) for one in panel.patches])
+        for f, touched in zip(data["frequency"].values, hit.any("direction").values, strict=True):
+            assert touched == bool(((edges[:, 0] <= f) & (f <= edges[:, 1])).any()), f
+        assert hit.any()
+        assert not hit.all()
 
 
 def test_a_rigid_stop_has_impulses() -> None:
@@ -304,6 +316,41 @@ def test_a_rigid_stop_has_impulses() -> None:
     )
     assert float(data["peak_impulse"].max()) > 0.0
     assert "force" in axes[1].get_ylabel()
+
+
+def test_an_orbit_that_touches_looks_so_in_the_panels_of_all_masses() -> None:
+    wall = {"wall": vi.Link("south3", "ground", vi.Bumper("500 MN/m", "2 MN s/m", "3 cm"))}
+    assembly = BUILDINGS.replace(stops=wall)
+    shaken = vi.Rig(assembly, vi.Harmonic("0.1 g", "1.4 Hz"))
+    data = vi.branch(shaken, vary={"frequency": (1.3, 1.5)})
+    swept = vi.sweep(vi.Rig(assembly, "0.1 g"), [1.2, 1.4, 1.6])
+    hit = swept["peak_force"].sel(stop="wall").values > 0.0
+    assert hit.any()
+    shades = [len(ax.patches) for ax in figures.mass_resonance(swept)]
+    assert shades[0] > 0
+    assert len(set(shades)) == 1
+    widths = [{one.get_linewidth() for one in ax.lines} for ax in figures.mass_branches(data)]
+    assert max(widths[0]) > 1.5
+    assert all(one == widths[0] for one in widths)
+
+
+@pytest.mark.parametrize("dense", [True, False])
+def test_the_spectrum_of_each_mass_has_its_own_panel(dense) -> None:
+    highest = 9.0
+    long = vi.simulate(vi.Rig(PAIR, vi.Harmonic("0.3 g", "1.6 Hz")), 40, samples=32)
+    lines = vi.fourier_spectrum(long if dense else motion())
+    axes = figures.mass_spectra(lines, highest=highest)
+    assert [ax.get_title(loc="left") for ax in axes] == list(lines["mass"].values)
+    assert {ax.get_yscale() for ax in axes} == {"log"}
+    assert len({ax.get_ylim() for ax in axes}) == 1
+    assert "(g)" in axes[0].figure.get_supylabel()  # as all accelerations of several masses
+    kept = lines["order"].values <= highest
+    for ax in axes:
+        mine = lines["acceleration_amplitude"].sel(mass=ax.get_title(loc="left")).values[kept]
+        np.testing.assert_allclose(ax.lines[0].get_ydata(), mine / 9.80665, rtol=1e-12)
+        assert mine.max() / 9.80665 < ax.get_ylim()[1]
+        assert bool(ax.collections) != dense
+    assert [bool(ax.child_axes) for ax in axes] == [True] + [False] * (len(axes) - 1)
 
 
 def test_branches_of_each_mass_with_their_contacts() -> None:
@@ -343,6 +390,13 @@ def test_branches_of_each_mass_with_their_contacts() -> None:
             lambda: figures.resonance_family(vi.sweeps([vi.Rig(PAIR, "0.2 g")], [1.6])),
             "data: it is of an Assembly of several masses; draw it with figures.mass_resonance",
         ),
+        (
+            lambda: figures.spectrum_lines(vi.fourier_spectrum(motion())),
+            "spectra: it is of an Assembly of several masses; draw it with figures.mass_spectra",
+        ),
+        (lambda: figures.mass_spectra(motion()), "spectrum: this is not a spectrum of several"),
+        (lambda: figures.mass_spectra(vi.fourier_spectrum(motion()), quantity="x"), "quantity: "),
+        (lambda: figures.mass_spectra(vi.fourier_spectrum(motion()), highest=0), "highest: 0"),
         (lambda: figures.phase_portrait(motion()), "motion: it is of an Assembly of several"),
         (lambda: figures.mass_histories(motion(), axes=[1]), "axes: 1 Axes; pass 6"),
         (lambda: save_animation(motion(), "motion.mp4"), "path: 'motion.mp4' does not end in .gif"),
@@ -362,14 +416,17 @@ def test_an_animated_gif_moves(tmp_path) -> None:
     path = save_animation(motion(), tmp_path / "motion.gif", duration=0.5, title="Neighbours")
     with Image.open(path) as picture:
         assert picture.n_frames == 10
+        assert picture.size[0] >= 1000
         frames = []
         for k in (0, 5):
             picture.seek(k)
             frames.append(np.asarray(picture.convert("RGB"), dtype=int))
         assert picture.info["loop"] == 0
     assert (np.abs(frames[0] - frames[1]).max(axis=2) > 100).mean() > 1e-3
-    red = np.abs(frames[0] - 255 * np.array(to_rgb("#c8102e"))).max(axis=2) < 40
-    assert red.any()
+    for pen in PENS.values():
+        seen = np.abs(frames[0] - np.rint(255 * np.array(to_rgb(pen.colour)))).max(axis=2) < 40
+        assert seen.any(), pen
+    assert (frames[0][0, frames[0].shape[1] // 2] == 255).all()  # the paper
 
 
 def test_an_animated_page_has_the_motion(tmp_path) -> None:
@@ -377,6 +434,8 @@ def test_an_animated_page_has_the_motion(tmp_path) -> None:
     text = path.read_text(encoding="utf-8")
     assert "<h1>a &lt;/script&gt; b</h1>" in text
     assert not re.search(r"(src|href)=", text)  # nothing from elsewhere
+    assert re.search(r'<svg width="100%" viewBox="0 0 [\d.]+ [\d.]+"', text)
+    assert "max-width" not in text
     data = json.loads(re.search(r"const data = (.*);\n", text)[1].replace("<\\/", "</"))
     assert len(data["values"]) == len(data["times"]) <= 300
     at = motion()["time"].values
@@ -390,7 +449,7 @@ def test_an_animated_page_has_the_motion(tmp_path) -> None:
     index = list(BUILDINGS.stops).index("pounding_3")
     clearance = motion()["clearance"].sel(stop="pounding_3").values
     (face,) = (one for one in data["shapes"] if one["stop"] == index and len(one["points"]) == 2)
-    stem = [one for one in data["shapes"] if one["width"] == 2.0][2]
+    stem = [one for one in data["shapes"] if one["above"]][2]
     shift = np.array(data["values"])
     scale = stem["points"][0][2][0][1]
 

@@ -284,3 +284,21 @@ def test_the_present_design_is_marked() -> None:
         assert line.get_xdata() == [80.0, 80.0]
     beyond = design_chart(found.isel(gap=[0, 1]))[0]
     assert not [line for line in beyond.lines if line.get_marker() == "*"]
+
+
+def test_a_chart_over_one_parameter_has_one_legend_and_room_for_its_ends(data) -> None:
+    line = data.isel({"stops.stiffness": 1}).drop_vars("stops.stiffness")
+    axes = design_chart(line)
+    assert [ax.get_legend() for ax in axes] == [None, None]
+    (legend,) = axes[0].figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert len(words) == len(set(words)) > 0
+    for ax in axes:
+        low, high = ax.get_xlim()
+        ends = 1e3 * line["gap"].values.min(), 1e3 * line["gap"].values.max()
+        assert ends[0] - low == pytest.approx(0.03 * (ends[1] - ends[0]))
+        assert high - ends[1] == pytest.approx(0.03 * (ends[1] - ends[0]))
+        curve = ax.lines[0].get_ydata()
+        assert np.nanmax(curve) < 0.98 * ax.get_ylim()[1]
+    (alone,) = design_chart(line, quantities=("peak_force",))
+    assert alone.get_legend() is not None

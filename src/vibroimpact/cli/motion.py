@@ -145,7 +145,7 @@ def _of_masses(
             data = with_spectrum(vi.steady(one, start, samples, progress=progress))
         title, ending = f"{what.title}, {forcing(hertz, 10)}", f"{forcing_slug(hertz)}-motion"
         write_motion(written, data, ending, title, None)
-        lines = figures.spectrum_lines(data, title=title)
+        lines = figures.mass_spectra(data, title=title)
         written.draw("spectrum", f"{ending}-spectrum", lines)
         found = facts.steady_facts(data)
     return written.tell(found, facts.steady_text(found))

@@ -7,6 +7,7 @@ from .assembly_histories import mass_histories as mass_histories
 from .assembly_portrait import pair_portrait as pair_portrait
 from .assembly_resonance import mass_branches as mass_branches
 from .assembly_resonance import mass_resonance as mass_resonance
+from .assembly_spectra import mass_spectra as mass_spectra
 from .basin_shares import basin_shares as basin_shares
 from .basins import basin_portrait as basin_portrait
 from .branches import branch_diagram as branch_diagram

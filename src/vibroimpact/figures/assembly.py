@@ -32,13 +32,13 @@ class Pen(NamedTuple):
 
 
 PENS = {
-    "stem": Pen("black", 2.0, 2.0),
     "ground": Pen("#595959", 0.8, 2.0),
-    "bridge": Pen("white", 5.0, 2.5),
     "mass": Pen("black", 1.0, 3.0),
     "link": Pen("black", 1.1, 3.0),
     "stop": Pen("#c8102e", 1.3, 3.0),
     "gap": Pen("#1f4fbf", 0.9, 3.0, "--"),
+    "bridge": Pen("white", 8.0, 3.5),
+    "stem": Pen("black", 2.0, 5.0),  # above the outlines of texts, which would cut it
 }
 """Pens, from the lowest layer to the top."""
 BOX = "#e8edf5"

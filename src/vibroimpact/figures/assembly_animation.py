@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
-from vibroimpact.figures.assembly import PENS, draw
+from vibroimpact.figures.assembly import BOX, PENS, draw
 from vibroimpact.figures.assembly_motion import History, history
 from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import File, Seconds, String
@@ -36,8 +37,10 @@ _RATE = 20.0
 """Frames per second of a GIF."""
 _HTML_RATE = 60.0
 """Most states per second in an HTML page, between which it interpolates."""
-_COLOURS, _DPI = 32, 100.0
-"""Number of colours, and pixels per inch, of a GIF."""
+_SHADES = 8
+"""Number of shades of each colour of a GIF, for smooth edges."""
+_NARROWEST, _WIDEST = 1000.0, 1600.0
+"""Width of a GIF in pixels."""
 _LONGEST = 120.0
 """Longest animation (s)."""
 _FARTHEST = 0.32
@@ -184,8 +187,11 @@ def _gif(moving: _Moving, at: _Array, title: str | None, speed: str) -> bytes:
     """Return the animation as the bytes of a GIF file."""
     from PIL import Image
 
+    # With the same colours in all frames, a frame stores only what has changed.
+    colours = Image.new("P", (1, 1))
+    colours.putpalette(_palette())
     frames = [
-        Image.fromarray(picture).quantize(_COLOURS, dither=Image.Dither.NONE)
+        Image.fromarray(picture).quantize(palette=colours, dither=Image.Dither.NONE)
         for picture in _pictures(moving, at, title, speed)
     ]
     file = io.BytesIO()
@@ -200,6 +206,16 @@ def _gif(moving: _Moving, at: _Array, title: str | None, speed: str) -> bytes:
     return file.getvalue()
 
 
+def _palette() -> bytes:
+    """Return the colours of a GIF: those of the pens on white, and black on a mass."""
+    white, box = np.array(to_rgb("white")), np.array(to_rgb(BOX))
+    pens = [np.array(to_rgb(colour)) for colour in {pen.colour: None for pen in PENS.values()}]
+    share = np.linspace(0.0, 1.0, _SHADES)[:, np.newaxis]
+    pairs = [*((white, pen) for pen in pens), (box, np.zeros(3))]
+    found = np.concatenate([(1.0 - share) * one + share * other for one, other in pairs])
+    return np.rint(255.0 * found).astype(np.uint8).tobytes()
+
+
 def _pictures(
     moving: _Moving, at: _Array, title: str | None, speed: str
 ) -> Iterator[NDArray[np.uint8]]:
@@ -208,7 +224,8 @@ def _pictures(
     wide = float(np.clip(made.width / 72.0, 4.0, 9.0))
     share = wide * 72.0 / made.width
     head = 26.0
-    figure = Figure(figsize=(wide, share * (made.height + head) / 72.0), dpi=_DPI)
+    dpi = float(np.clip(1.5 * made.width, _NARROWEST, _WIDEST)) / wide
+    figure = Figure(figsize=(wide, share * (made.height + head) / 72.0), dpi=dpi)
     canvas = FigureCanvasAgg(figure)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     size = max(5.0, 8.0 * min(share, 1.0))
@@ -257,6 +274,7 @@ def _page(moving: _Moving, at: _Array, duration: float, title: str | None, speed
                 "width": pen.width,
                 "dashes": "" if pen.dashes == "-" else "3 2",
                 "stop": moving.stops.index(owner) if owner else -1,
+                "above": line.kind == "stem",  # the outline of a text would cut it
                 "points": _linear(moving, range(where.start, where.stop)),
             }
         )

@@ -228,7 +228,9 @@ def contact_forces(
             for ax in alike:
                 ax.set_ylim(0.0, highest)
     given[-1].set_xlabel(shown.label)
-    if entries := mark_end(given, motion):
+    pressed = [name for name in names if shown.contacts(name)]
+    entries = [*contact_legend(shown.assembly, pressed), *mark_end(given, motion)]
+    if entries:
         add_legend(given[0], entries)
     return given
 

@@ -18,7 +18,6 @@ from vibroimpact.figures.assembly_motion import (
     chosen,
     grid_of_panels,
     label_each,
-    touching,
 )
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import (
@@ -56,8 +55,9 @@ def mass_resonance(
     """Draw the resonance curves of an assembly: one panel for each mass, or for each stop.
 
     The forward sweep is a solid red line with dots, the backward sweep a dashed blue line with
-    squares. Frequencies at which a stop of the mass is touched are shaded, and hatched if it is
-    touched in one of the two sweeps alone. Crosses mark motions that did not become periodic.
+    squares. Frequencies at which a stop is touched are shaded, and hatched if it is touched in one
+    of the two sweeps alone: in the panels of masses any stop, in that of a stop this one. Crosses
+    mark motions that did not become periodic.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def mass_branches(
     """Draw a branch of an assembly over its parameter: one panel for each mass, or for each stop.
 
     Stable parts are solid, unstable parts are dashed, and bifurcations are marked. Parts with
-    contacts at the mass, or at the stop, are thicker.
+    contacts are thicker: in the panels of masses at any stop, in that of a stop at this one.
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ class _Panel(NamedTuple):
     factor: float
     label: str
     touched: NDArray[np.bool_]
-    """Where a stop of this part is touched: of a mass its own stops, of the assembly all."""
+    """Where a stop is touched: this one, or any for a mass or the assembly."""
 
     def of(self, values: xr.DataArray) -> xr.DataArray:
         """Return the values of this part from those of all."""
@@ -289,8 +289,8 @@ def _panels(
         if quantity == "peak_force" and assembly.stops[name].stop.rigid:
             of = "peak_impulse"
             factor, label = axis_label(data[of], of)
-        stops = touching(assembly, name) if dim == "mass" else [name]
-        touched = hit.sel(stop=stops).any("stop").values
+        # The orbit touches, whichever mass is hit.
+        touched = (hit.any("stop") if dim == "mass" else hit.sel(stop=name)).values
         found.append(_Panel(name, of, data[of].sel({dim: name}), factor, label, touched))
     return found
 

@@ -49,6 +49,8 @@ PRESENT: dict[str, Any] = {
 }
 """Keywords of the mark of the present design."""
 _LEVELS = 9
+_MARGIN = 0.03
+"""Room beside the first and the last design of a chart over one parameter."""
 
 
 @finished
@@ -103,6 +105,12 @@ def design_chart(
     if len(dims) == 1:
         for ax, name in zip(drawn, quantities, strict=True):
             _curve(ax, data, name)
+        if axes is None and count > 1:  # the panels have the same key
+            handles = drawn[0].get_legend_handles_labels()[0]
+            add_legend(drawn[0].get_figure(root=True), handles)  # type: ignore[arg-type]
+        else:
+            for ax in drawn:
+                add_legend(ax, columns=2)
         return drawn
     lines = [_contours(ax, data, name) for ax, name in zip(drawn, quantities, strict=True)]
     fit_labels(*drawn)
@@ -229,14 +237,24 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
         ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
     free = ~(data["hitting"].values > 0.0)
     ring = Look("hits no stop", "0.5", "", 0.0, "o", 7.0, False)
-    ax.plot(x[free], y[free], label=ring.label, **ring.marks())
+    if free.any():
+        ax.plot(x[free], y[free], label=ring.label, **ring.marks())
     (present,) = _present_on_axes(data, [dim])
     if x.min() <= present <= x.max():
         dashes = {"color": PRESENT["color"], "linestyle": "-.", "linewidth": 1.0}
         ax.axvline(present, label="present design", **dashes)
     ax.set_ylabel(label)
-    ax.set_ylim(bottom=0.0)
-    add_legend(ax, columns=2)
+    _widen(ax)
+    ax.set_ylim(0.0, (1.0 + _MARGIN) * float(np.nanmax(y, initial=0.0)) or 1.0)
+
+
+def _widen(ax: Axes) -> None:
+    """Leave room beside the first and the last design, whose marks the axes would cut."""
+    scale = ax.xaxis.get_transform()
+    low, high = scale.transform(np.array(ax.get_xlim()))
+    room = _MARGIN * (high - low)
+    left, right = scale.inverted().transform(np.array([low - room, high + room]))
+    ax.set_xlim(float(left), float(right))
 
 
 def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Line2D]]:

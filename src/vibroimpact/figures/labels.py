@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 
 import numpy as np
@@ -23,6 +24,8 @@ _ON = 0.01
 """Distance from a name below which a curve is assumed to have this name."""
 _STEP = 0.005
 """Spacing of the points at which a curve is checked."""
+_BESIDE, _OFF = 4.0, 4.0
+"""Distance of a name from its curve, along and across, in points."""
 _LETTER = 0.6
 """Width of a letter, as a share of the font size."""
 
@@ -38,6 +41,8 @@ class Names:
         ax.autoscale_view()  # which matplotlib would put off until it draws
         self._to_panel = ax.transData + ax.transAxes.inverted()
         size = FontProperties(size="small").get_size_in_points()
+        self._size = size
+        self._point = ax.figure.dpi / 72.0 / np.array(ax.bbox.size)
         self._letter = _LETTER * size / 72.0 * ax.figure.dpi / ax.bbox.width
         self._names: list[_Array] = []
         self._marks = [
@@ -59,7 +64,8 @@ class Names:
         wide = self._letter * len(name)
         if len(at) * _STEP < 2.0 * wide:
             return
-        for place in _PLACES:
+        # Rather a name that its curve does not cross.
+        for crossed, place in itertools.product((False, True), _PLACES):
             spot = at[round(place * (len(at) - 1))]
             near = at[np.abs(at - spot).max(axis=1) < 0.04]
             across, up = near[-1] - near[0]
@@ -69,20 +75,36 @@ class Names:
             inside = 0.5 * wide < middle < 1.0 - 0.5 * wide and spot[1] < 0.94
             if not inside or not self._free(spot):
                 continue
+            side = next(
+                (one for one in (1.0, -1.0) if self._clear(at, spot, rising, one, wide)), 0.0
+            )
+            if not (side or crossed):
+                continue
+            side = side or 1.0
             self._names.append(spot)
             self.ax.annotate(
                 name,
                 (spot[0], spot[1]),
                 xycoords="axes fraction",
-                xytext=(-3.0 * rising, 4.0),
+                xytext=(-_BESIDE * rising * side, _OFF * side),
                 textcoords="offset points",
-                ha={1.0: "right", 0.0: "center", -1.0: "left"}[rising],
-                va="bottom",
+                ha={1.0: "right", 0.0: "center", -1.0: "left"}[rising * side],
+                va="bottom" if side > 0.0 else "top",
                 fontsize="small",
                 color=colour,
                 zorder=6,
             )
             return
+
+    def _clear(self, at: _Array, spot: _Array, rising: float, side: float, wide: float) -> bool:
+        """Return whether a curve does not cross its name above (1) or below (-1) the curve."""
+        along = rising * side
+        middle = spot[0] - along * (0.5 * wide + _BESIDE * self._point[0])
+        near = side * (at[:, 1] - spot[1]) / self._point[1]
+        above = (near > 0.5 * _OFF) & (near < 1.5 * _OFF + self._size)
+        low, high = middle - 0.5 * wide, middle + 0.5 * wide
+        inside = low > 0.0 and high < 1.0 and 0.0 < spot[1] + 0.08 * side < 1.0
+        return bool(inside and not (above & (at[:, 0] > low) & (at[:, 0] < high)).any())
 
     def _free(self, spot: _Array) -> bool:
         return not any(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError, unknown
@@ -39,7 +40,7 @@ def spectrum_lines(
     ----------
     spectra
         Dataset of `fourier_spectrum`. For several spectra, pass a mapping from names to datasets.
-        Of an assembly, the lines of all masses are drawn; pass ``spectra.sel(mass=…)`` for one.
+        Of an assembly, pass ``spectrum.sel(mass=…)``; `mass_spectra` draws all masses.
     ax
         Axes to draw on. Default: a new figure.
     quantity
@@ -55,14 +56,9 @@ def spectrum_lines(
     InputError
         If a dataset does not hold a spectrum, or if the quantity is unknown.
     """
-    if quantity not in _LABELS:
-        raise InputError(f"quantity: {unknown(quantity, _LABELS)}")
-    if not 0.0 < highest < math.inf:
-        raise InputError(f"highest: {highest!r}; use a finite order greater than 0")
+    check_lines(_LABELS, quantity, highest)
     # A dataset is a mapping, too.
     given = by_name(spectra, "motion")
-    if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
-        given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
     if not given:
         raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
     for name, data in given.items():
@@ -71,18 +67,20 @@ def spectrum_lines(
             raise InputError(
                 f"spectra: {which} is not a spectrum; pass the result of fourier_spectrum"
             )
+        if "mass" in data.dims:
+            raise InputError(
+                "spectra: it is of an Assembly of several masses; draw it with figures.mass_spectra"
+            )
     factor, label = _LABELS[quantity]
     factor = in_unit(factor)
     ax = axes_or_new(ax, (5.6, 3.6), title)
-    frequency = None
     for i, (data, look) in enumerate(zip(given.values(), looks(list(given)), strict=True)):
         kept = data["order"].values <= highest
         order = data["order"].values[kept]
         height = factor * data[f"{quantity}_amplitude"].values[kept]
         # Side by side, so that the lines of one do not hide those of the other.
         shift = (i - 0.5 * (len(given) - 1)) * min(0.12, 0.8 / len(given))
-        frequency = motion_parameters(data)["frequency"] * (math.tau if unitless() else 1.0)
-        if len(order) > 30 * highest:  # nearly continuous
+        if nearly_continuous(order, highest):
             ax.plot(order, height, color=look.colour, linewidth=0.8, label=look.label)
             continue
         ax.vlines(order + shift, 0.0, height, color=look.colour, linewidth=1.4)
@@ -96,16 +94,39 @@ def spectrum_lines(
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
     ax.autoscale(axis="y")  # together with the axes that share this one's scale
     ax.set_ylim(bottom=0.0)
-    ax.set_xlabel("order $f/f_{exc}$ (–)")
     ax.set_ylabel(base_label(label, given.values()))
-    if (
-        frequency is not None
-        and len({motion_parameters(d)["frequency"] for d in given.values()}) == 1
-    ):
-        above = ax.secondary_xaxis(
-            "top", functions=(lambda x: x * frequency, lambda x: x / frequency)
-        )
-        above.set_xlabel("frequency (Hz)")
+    label_orders(ax, ax, list(given.values()))
     if len(given) > 1:
         ax.legend(loc="upper right", frameon=False, fontsize="small")
     return ax
+
+
+def check_lines(quantities: Iterable[str], quantity: str, highest: float) -> None:
+    """Check the quantity and the highest order of a figure of a spectrum.
+
+    Raises
+    ------
+    InputError
+        If one of them is invalid.
+    """
+    if quantity not in quantities:
+        raise InputError(f"quantity: {unknown(quantity, quantities)}")
+    if not 0.0 < highest < math.inf:
+        raise InputError(f"highest: {highest!r}; use a finite order greater than 0")
+
+
+def nearly_continuous(order: NDArray[np.float64], highest: float) -> bool:
+    """Return whether the lines of a spectrum are too close to each other for stems."""
+    return len(order) > 30 * highest
+
+
+def label_orders(below: Axes, above: Axes, data: Sequence[xr.Dataset]) -> None:
+    """Label orders below a panel, and frequencies above a panel if all spectra have one."""
+    below.set_xlabel("order $f/f_{exc}$ (–)")
+    frequencies = {motion_parameters(one)["frequency"] for one in data}
+    if len(frequencies) == 1:
+        frequency = frequencies.pop() * (math.tau if unitless() else 1.0)
+        scale = above.secondary_xaxis(
+            "top", functions=(lambda x: x * frequency, lambda x: x / frequency)
+        )
+        scale.set_xlabel("frequency (Hz)")

@@ -11,6 +11,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.bifurcation_curve import bifurcation_curve
 from vibroimpact.stability.branch import branch
 from vibroimpact.stability.resonance_diagram import resonance_diagram
@@ -41,8 +42,8 @@ def curves_of_kind(
     Returns
     -------
     dict of xarray.Dataset
-        Datasets of `bifurcation_curve` by the value at which the bifurcation was found, each
-        curve once.
+        Datasets of `bifurcation_curve` by the value at which the bifurcation was found, such as
+        ``"frequency 1.66501 Hz"``, each curve once.
 
     Raises
     ------
@@ -72,13 +73,23 @@ def curves_of_kind(
             continue
         start = data.isel(bifurcation=int(i))
         both = {**only, second: beside.ends}
-        found[f"{first} {value:.6g}"] = bifurcation_curve(rig, start, vary=both, progress=progress)
+        curve = bifurcation_curve(rig, start, vary=both, progress=progress)
+        found[_name(curve, first, value)] = curve
     if not found:
         raise InputError(
             f"kind: no {kind} was found for {first} from {along.low} to {along.high}; choose "
             "another kind, or widen the range of the first parameter"
         )
     return found
+
+
+def _name(curve: xr.Dataset, parameter: str, value: float) -> str:
+    """Return the parameter and the value at which a bifurcation was found, with its SI unit."""
+    if unitless():
+        turned = parameter == "frequency"
+        return f"ω {math.tau * value:.6g}" if turned else f"{parameter} {value:.6g}"
+    units = str(curve[parameter].attrs["units"])
+    return f"{parameter} {value:.6g}{'' if units == '1' else f' {units}'}"
 
 
 def _passes(data: xr.Dataset, names: tuple[str, str], p: float, q: float) -> bool:

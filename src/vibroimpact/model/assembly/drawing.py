@@ -1,12 +1,14 @@
 """A drawing of an assembly: the masses, their links, and the gaps to scale.
 
 Each mass is a box with a stem below it. Each link and each stop is a row between the stems of its
-two bodies. The base is a hatched line on the left and on the right. A stop is a spring or a plate
-on its right body, and its gap is the distance from the stem of its left body.
+two bodies, and is broken where it passes the stem of another body. The base is a hatched line on
+the left and on the right. A stop is a spring or a plate on its right body, and its gap is the
+distance from the stem of its left body.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -24,8 +26,13 @@ if TYPE_CHECKING:
 Kind = Literal["mass", "stem", "ground", "link", "stop", "gap", "bridge"]
 Point = tuple[float, float]
 
-_COLUMN, _ROW, _BOX = 120.0, 34.0, 36.0
-"""Distance between bodies, height of a row, and height of the boxes, in points."""
+_COLUMN, _ROW, _BOX, _WALL = 120.0, 34.0, 36.0, 10.0
+"""Distance between bodies, height of a row, height of the boxes, and width of the base, in
+points."""
+_LETTER, _MARGIN = 6.3, 14.0
+"""Width of a letter, and room beside a text, in points."""
+_ABOVE = 14.0
+"""Distance of the middle of a text from the row below it, in points."""
 _LONGEST_GAP = 0.5
 """Length of the largest gap, relative to the room between two bodies."""
 _TEETH = 4
@@ -83,8 +90,10 @@ def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
     names = assembly.names
     parts = [*assembly.links.items(), *assembly.stops.items()]
     column = column_width(assembly)
-    made = Drawing(column * (len(names) + 1), _BOX + 12.0 + _ROW * max(len(parts), 1) + 10.0)
-    place = {name: column * (i + 1) for i, name in enumerate(names)}
+    made = Drawing(
+        column * (len(names) + 1) + 2.0 * _WALL, _BOX + 12.0 + _ROW * max(len(parts), 1) + 10.0
+    )
+    place = {name: _WALL + column * (i + 1) for i, name in enumerate(names)}
     scale = gap_scale(assembly)
     rest, pressed = dict(place), dict.fromkeys(assembly.stops, 0.0)
     if moved is not None:
@@ -93,7 +102,7 @@ def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
             place[name] += scale * by
         pressed.update({name: scale * by for name, by in moved.deformation.items()})
     rows = {name: _BOX + 12.0 + _ROW * (i + 0.75) for i, (name, _) in enumerate(parts)}
-    left, right = 10.0, made.width - 10.0
+    left, right = _WALL, made.width - _WALL
     sides = {
         x
         for _, link in parts
@@ -101,10 +110,15 @@ def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
     }
     for x in sorted(sides):
         _draw_ground(made, x, -1.0 if x == left else 1.0)
+    foot = {
+        name: max(
+            (rows[part] for part, link in parts if name in (link.left, link.right)), default=0.0
+        )
+        for name in names
+    }
     for name, x in place.items():
-        ends = [rows[part] for part, link in parts if name in (link.left, link.right)]
-        if ends:
-            made.line("stem", (x, _BOX), (x, max(ends)))
+        if foot[name]:
+            made.line("stem", (x, _BOX), (x, foot[name]))
         _draw_mass(made, assembly, name, x, column)
     for name, link in parts:
         y = rows[name]
@@ -115,20 +129,55 @@ def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
             # The face of a stop moves with its right body, and a deformation brings it nearer.
             length = abs(r1 - r0) - max(link.stop.gap, 0.0) * scale
             face = x1 - math.copysign(1.0, r1 - r0) * (length - pressed[name])
-            _draw_stop(made, name, link, (x0, face, x1, y), length)
+            _draw_stop(made, link, (x0, face, x1, y), length)
         else:
             _draw_spring(made, "link", x0, x1, y, abs(r1 - r0))
-            made.words.append(Words(name, (0.5 * (x0 + x1), y - 11.0)))
         low, high = sorted((r0, r1))
-        for other, x in place.items():
-            if low < rest[other] < high and other not in (link.left, link.right):
-                made.line("bridge", (x - 5.0, y), (x + 5.0, y))
+        between = [one for one in names if low < rest[one] < high]
+        for other in between:
+            if foot[other] > y - 8.0:
+                made.line("bridge", (place[other], y - 8.0), (place[other], y + 8.0))
+        edges = sorted([(r0, x0), (r1, x1)])
+        edges[1:1] = [(rest[one], place[one]) for one in between if foot[one] > y - 1.5 * _ABOVE]
+        text = _label(name, link)
+        made.words.append(Words(text, (_free_middle(edges, _length(text)), y - _ABOVE)))
     return made
+
+
+def _free_middle(edges: list[Point], length: float) -> float:
+    """Return the middle of a text, which covers no stem: as near to that of its row as it can be.
+
+    Parameters
+    ----------
+    edges
+        From left to right, where each stem or wall is at rest, and where it is now.
+    length
+        Length of the text, at most the distance between two stems.
+    """
+    middle = 0.5 * (edges[0][0] + edges[-1][0])
+    at, (r0, x0), (r1, x1) = min(
+        (
+            (min(max(middle, left[0] + 0.5 * length), right[0] - 0.5 * length), left, right)
+            for left, right in itertools.pairwise(edges)
+        ),
+        key=lambda room: abs(room[0] - middle),
+    )
+    return x0 + (at - r0) / (r1 - r0) * (x1 - x0)
+
+
+def _length(text: str) -> float:
+    """Return the room that a text needs, in points."""
+    return _LETTER * len(text) + _MARGIN
 
 
 def column_width(assembly: Assembly) -> float:
     """Return the distance between two bodies of a drawing, in points."""
-    return max(_COLUMN, 8.0 * max(len(name) for name in assembly.names) + 40.0)
+    parts = {**assembly.links, **assembly.stops}
+    return max(
+        _COLUMN,
+        8.0 * max(len(name) for name in assembly.names) + 40.0,
+        *(_length(_label(name, link)) for name, link in parts.items()),
+    )
 
 
 def gap_scale(assembly: Assembly) -> float:
@@ -167,7 +216,6 @@ def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float, leng
 
 def _draw_stop(
     made: Drawing,
-    name: str,
     link: Link,
     where: tuple[float, float, float, float],
     length: float,
@@ -182,8 +230,14 @@ def _draw_stop(
         _draw_spring(made, "stop", face, x1, y, length)
     if gap > 0.0:
         made.line("gap", (x0, y + 6.0), (face, y + 6.0))
-    label = f"{name}: {'preload' if gap < 0.0 else 'gap'} {pretty(abs(gap), LENGTH)}"
-    made.words.append(Words(label, (0.5 * (x0 + x1), y - 14.0)))
+
+
+def _label(name: str, link: Link) -> str:
+    """Return the name of a link, or the name and the gap of a stop."""
+    if not link.is_stop:
+        return name
+    gap = link.stop.gap
+    return f"{name}: {'preload' if gap < 0.0 else 'gap'} {pretty(abs(gap), LENGTH)}"
 
 
 _PENS = {
@@ -193,7 +247,7 @@ _PENS = {
     "link": 'fill="none" stroke="black" stroke-width="1.2"',
     "stop": 'fill="none" stroke="#c8102e" stroke-width="1.4"',
     "gap": 'fill="none" stroke="#1f4fbf" stroke-width="1" stroke-dasharray="3 2"',
-    "bridge": 'fill="none" stroke="white" stroke-width="5"',
+    "bridge": 'fill="none" stroke="white" stroke-width="8"',
 }
 
 
@@ -207,9 +261,7 @@ def as_svg(made: Drawing) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{made.width:g}" height="{made.height:g}" '
         f'viewBox="0 0 {made.width:g} {made.height:g}" style="background:white">'
     ]
-    for line in made.lines:
-        shape = "polygon" if line.closed else "polyline"
-        pieces.append(f'<{shape} points="{_points(line.points)}" {_PENS[line.kind]}/>')
+    pieces += [_shape(line) for line in made.lines if line.kind != "stem"]
     for words in made.words:
         outline = _OUTLINE if words.over_lines else ""
         rows = words.text.split("\n")
@@ -219,7 +271,14 @@ def as_svg(made: Drawing) -> str:
                 f'<text x="{words.at[0]:g}" y="{y:g}" text-anchor="middle" '
                 f'font-family="sans-serif" font-size="11"{outline}>{escape(row)}</text>'
             )
+    # The outline of a text must not cut a stem.
+    pieces += [_shape(line) for line in made.lines if line.kind == "stem"]
     return "".join([*pieces, "</svg>"])
+
+
+def _shape(line: Line) -> str:
+    shape = "polygon" if line.closed else "polyline"
+    return f'<{shape} points="{_points(line.points)}" {_PENS[line.kind]}/>'
 
 
 def _points(points: Iterable[Point]) -> str:
