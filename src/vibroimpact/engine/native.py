@@ -83,6 +83,12 @@ class Choice(NamedTuple):
     """Whether there is one that would fit this machine."""
 
 
+def shipped() -> Path | None:
+    """The library for this machine, if there is one, of whichever sources."""
+    names = [name_of(sys.platform, machine(), level) for level in levels()]
+    return next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
+
+
 @functools.cache
 def choose() -> Choice:
     """Choose the library for this machine and these sources, if there is one."""
@@ -90,8 +96,7 @@ def choose() -> Choice:
         return Choice(None, "VIBROIMPACT_ENGINE is numba")
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return Choice(None, "NUMBA_DISABLE_JIT is set")
-    names = [name_of(sys.platform, machine(), level) for level in levels()]
-    path = next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
+    path = shipped()
     if path is None:
         return Choice(None, f"there is no machine code for {sys.platform}, {machine()}")
     if (FOLDER / DIGEST).read_text().strip() != digest():
