@@ -188,6 +188,61 @@ def test_a_library_that_others_may_write_is_not_used(folder: Path) -> None:
     assert found() == path
 
 
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners and modes here")
+def test_a_library_of_the_owner_of_the_sources_is_used_and_of_another_user_is_not(
+    folder: Path, monkeypatch
+) -> None:
+    (path,) = (one for one in folder.iterdir() if one.name != native.DIGEST)
+    source = folder.parent / "native.py"
+    source.touch()
+    user = os.getuid()
+    if user == 0:
+        for one in (folder, path, source):
+            os.chown(one, 12345, -1)
+    else:
+        monkeypatch.setattr(os, "getuid", lambda: user + 1)
+    monkeypatch.setattr(native, "SOURCE", source)
+    assert found() == path
+    path.chmod(0o646)
+    assert "chmod go-w" in choice().why
+    path.chmod(0o644)
+    monkeypatch.setattr(native, "SOURCE", Path("/"))  # root's
+    assert choice().unexpected
+    assert f"{str(folder)!r} belongs to another user" in choice().why
+    assert found() is None
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners and modes here")
+def test_a_library_that_a_group_may_write_is_used_if_the_group_is_its_owner_alone(
+    folder: Path, monkeypatch
+) -> None:
+    import grp
+    import pwd
+
+    (path,) = (one for one in folder.iterdir() if one.name != native.DIGEST)
+    folder.chmod(0o775)
+    path.chmod(0o664)
+    group = path.stat().st_gid
+
+    def account(name: str, user: int = os.getuid()) -> pwd.struct_passwd:
+        return pwd.struct_passwd((name, "x", user, group, "", "/", "/bin/sh"))
+
+    def used(name: str, *members: str, others: tuple[str, ...] = ()) -> bool:
+        accounts = [account("ann"), *(account(one, 12345) for one in others)]
+        monkeypatch.setattr(pwd, "getpwuid", lambda user: accounts[0])
+        monkeypatch.setattr(pwd, "getpwall", lambda: accounts)
+        held = grp.struct_group((name, "x", group, list(members)))
+        monkeypatch.setattr(grp, "getgrgid", lambda group: held)
+        return found() == path
+
+    assert used("ann")
+    assert used("ann", "ann")
+    assert not used("users")
+    assert not used("ann", "bob")
+    assert not used("ann", others=("bob",))
+    assert "chmod go-w" in choice().why
+
+
 def test_a_processor_that_lacks_features_takes_a_lower_level(folder: Path, monkeypatch) -> None:
     assert native.levels() == list(native.LEVELS[native.machine()])[-len(native.levels()) :]
     monkeypatch.setattr(native, "levels", list)

@@ -27,6 +27,9 @@ FOLDER = Path(__file__).with_name("libraries")
 
 DIGEST = "digest"
 
+SOURCE = Path(__file__)
+"""Whoever owns it can run code as the user anyway."""
+
 _LOADING = ("cache.py", "compilation.py", "compiled_code.py", "compiler.py", "native.py")
 """Sources that find compiled code, and have no influence on it."""
 
@@ -102,8 +105,12 @@ def choose() -> Choice:
     if (FOLDER / DIGEST).read_text().strip() != digest():
         return Choice(None, f"{path.name} was made of other sources (make kernels)", True)
     # Whoever can write to it can run code as the user.
-    if writable := cache.writable_by_others((FOLDER, path)):
-        return Choice(None, f"other users may write to {str(writable)!r} (chmod go-w)", True)
+    owners = (SOURCE.stat().st_uid,)
+    if writable := cache.writable_by_others((FOLDER, path), owners):
+        why = f"other users may write to {str(writable)!r} (chmod go-w)"
+        if cache.is_foreign(writable, owners):
+            why = f"{str(writable)!r} belongs to another user (chown it, or install it yourself)"
+        return Choice(None, why, True)
     return Choice(path)
 
 
