@@ -187,6 +187,41 @@ def test_a_telephone(browser, file, width, height):
     opened.close()
 
 
+BROKEN = (
+    ("delete window.DecompressionStream", "cannot start here (ReferenceError: DecompressionStream"),
+    ("window.Worker = function () { throw new Error('no workers'); }", "cannot start here (Error"),
+    (
+        "const post = Worker.prototype.postMessage; Worker.prototype.postMessage = "
+        "function (data) { post.call(this, data.module ? { ...data, module: new ArrayBuffer(8) } "
+        ": data); }",
+        "computation failed (CompileError",
+    ),
+)
+
+
+@pytest.mark.parametrize(("script", "why"), BROKEN)
+def test_a_start_that_fails_says_why(browser, file, script, why):
+    opened = browser.new_page()
+    opened.add_init_script(script)
+    opened.goto(file.as_uri())
+    opened.wait_for_selector("#status.lost", timeout=10_000)
+    assert why in opened.inner_text("#status")
+    opened.close()
+
+
+def test_what_the_page_waits_for_is_written(browser, file):
+    opened = browser.new_page()
+    opened.add_init_script("Response.prototype.arrayBuffer = () => new Promise(() => {})")
+    opened.goto(file.as_uri())
+    assert opened.inner_text("#status") == "loading …"
+    opened.close()
+    context = browser.new_context(java_script_enabled=False)
+    opened = context.new_page()
+    opened.goto(file.as_uri())
+    assert "needs JavaScript" in opened.inner_text("header")
+    context.close()
+
+
 def test_rigs_that_only_python_computes_are_refused(tmp_path, capsys):
     friction = vi.FrictionIsolator("1 kN/m", "10 N s/m", "20 N")
     curved = vi.Rig(vi.Oscillator("100 kg", friction, vi.Bumper("9 kN/m", 10.0, "5 mm")), "0.05 g")

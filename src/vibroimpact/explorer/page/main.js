@@ -21,6 +21,7 @@ let resting = true;
 let waiting = [];
 let asked = 0;
 
+say(OFFLINE ? "loading …" : "connecting …");
 const link = new Link({
   told,
   changed(how, why) {
