@@ -117,6 +117,7 @@ def test_laws_motions_and_basins(shown):
     assert shown.input_value("#text-stops-restitution") == "0.6"
     shown.click("#tab-basins")
     shown.wait_for_selector("#basins li")
+    assert shown.text_content("#basins li >> nth=0").startswith("A periodic, period 1")
     settled(shown)
     shown.select_option("#presets", "building with moat")
     settled(shown)
