@@ -6,6 +6,7 @@ import json
 import threading
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -116,6 +117,7 @@ def test_laws_motions_and_basins(shown):
     assert shown.input_value("#text-stops-restitution") == "0.6"
     shown.click("#tab-basins")
     shown.wait_for_selector("#basins li")
+    assert shown.text_content("#basins li >> nth=0").startswith("A periodic, period 1")
     settled(shown)
     shown.select_option("#presets", "building with moat")
     settled(shown)
@@ -133,21 +135,92 @@ def test_addresses_are_those_of_the_server(shown):
     assert "address" in shown.inner_text("#status")
 
 
-def test_a_telephone(browser, file):
-    opened = browser.new_page(viewport={"width": 390, "height": 844}, has_touch=True)
+def apart(one, other) -> bool:
+    return (
+        one["x"] + one["width"] <= other["x"]
+        or other["x"] + other["width"] <= one["x"]
+        or one["y"] + one["height"] <= other["y"]
+        or other["y"] + other["height"] <= one["y"]
+    )
+
+
+def inside(one, other) -> bool:
+    return all(
+        other[at] <= one[at] and one[at] + one[size] <= other[at] + other[size] + 0.5
+        for at, size in (("x", "width"), ("y", "height"))
+    )
+
+
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (390, 664), (360, 640), (844, 390)])
+def test_a_telephone(browser, file, width, height):
+    opened = browser.new_page(viewport={"width": width, "height": height}, has_touch=True)
     opened.goto(file.as_uri())
     opened.wait_for_selector("body[data-settled]", timeout=60_000)
-    assert opened.evaluate("document.documentElement.scrollWidth") <= 390
+    assert opened.evaluate("document.documentElement.scrollWidth") <= width
     # The curves stay in sight where a knob is turned.
-    opened.locator("#knob-stops-relaxation_time").scroll_into_view_if_needed()
+    slider = opened.locator("#knob-stops-relaxation_time")
+    slider.scroll_into_view_if_needed()
     curve = opened.locator("#panels [data-name='forward']").first
     before = curve.get_attribute("d")
     opened.fill("#text-stops-gap", "12 mm")
     opened.press("#text-stops-gap", "Enter")
-    opened.wait_for_function("document.body.dataset.settled === document.body.dataset.asked")
+    settled(opened)
     assert curve.get_attribute("d") != before
-    assert 0 <= opened.locator("#panels").bounding_box()["y"] < 400
+    assert slider.bounding_box()["height"] >= 24
+    assert slider.evaluate("one => getComputedStyle(one).touchAction") == "pan-y"
+    for physical, count in ((False, 2), (True, 3)):
+        opened.set_checked("#physical", physical)
+        settled(opened)
+        slider.scroll_into_view_if_needed()
+        opened.wait_for_timeout(300)  # it is laid out anew
+        charts, labels, (legend,) = (
+            [one.bounding_box() for one in opened.locator(f"{at} >> visible=true").all()]
+            for at in ("#panels .chart", "#panels svg text.soft", ".legend")
+        )
+        screen = {"x": 0, "y": 0, "width": width, "height": height}
+        assert len(charts) == count
+        assert all(inside(chart, screen) and chart["height"] > 85 for chart in charts)
+        assert all(any(inside(label, chart) for chart in charts) for label in labels)
+        assert len(labels) == count + 1  # frequency
+        words = [legend, *labels]
+        assert all(apart(*pair) for pair in combinations(words, 2))
+        assert slider.bounding_box()["y"] + 24 <= height
     opened.close()
+
+
+BROKEN = (
+    ("delete window.DecompressionStream", "cannot start here (ReferenceError: DecompressionStream"),
+    ("window.Worker = function () { throw new Error('no workers'); }", "cannot start here (Error"),
+    (
+        "const post = Worker.prototype.postMessage; Worker.prototype.postMessage = "
+        "function (data) { post.call(this, data.module ? { ...data, module: new ArrayBuffer(8) } "
+        ": data); }",
+        "computation failed (CompileError",
+    ),
+)
+
+
+@pytest.mark.parametrize(("script", "why"), BROKEN)
+def test_a_start_that_fails_says_why(browser, file, script, why):
+    opened = browser.new_page()
+    opened.add_init_script(script)
+    opened.goto(file.as_uri())
+    opened.wait_for_selector("#status.lost", timeout=10_000)
+    assert why in opened.inner_text("#status")
+    opened.close()
+
+
+def test_what_the_page_waits_for_is_written(browser, file):
+    opened = browser.new_page()
+    opened.add_init_script("Response.prototype.arrayBuffer = () => new Promise(() => {})")
+    opened.goto(file.as_uri())
+    assert opened.inner_text("#status") == "loading …"
+    opened.close()
+    context = browser.new_context(java_script_enabled=False)
+    opened = context.new_page()
+    opened.goto(file.as_uri())
+    assert "needs JavaScript" in opened.inner_text("header")
+    context.close()
 
 
 def test_rigs_that_only_python_computes_are_refused(tmp_path, capsys):

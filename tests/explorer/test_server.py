@@ -19,6 +19,7 @@ from websockets.sync.client import connect
 
 import vibroimpact as vi
 from explorer.conftest import Served
+from vibroimpact.engine import native
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.server import MOST_MESSAGE, MOST_SESSIONS
 from vibroimpact.explorer.session import Session
@@ -45,6 +46,7 @@ def test_a_page_of_this_server_is_served(served):
         hello = json.loads(socket.recv())
         assert hello["hello"]
         assert hello["state"]["name"] == FIRST
+        assert hello["compiles"] is (native.find_library() is None)
 
 
 @pytest.mark.parametrize(

@@ -27,8 +27,7 @@ def explore(
 
     The page also shows the scenario, which is a class of resonance curves (see vibroimpact
     classify). The command starts a server, prints the address of its page, and opens the page in a
-    browser. By default, only this machine can open the page. To stop the server, press Ctrl-C. On
-    first use, vibroimpact compiles its numerical code, which takes a minute.
+    browser. By default, only this machine can open the page. To stop the server, press Ctrl-C.
 
     For example:
 

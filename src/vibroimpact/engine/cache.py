@@ -11,7 +11,7 @@ import hashlib
 import os
 import stat
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 
 from platformdirs import user_cache_path
@@ -50,18 +50,39 @@ def make_folder(folder: Path, base: Path) -> None:
         one.mkdir(exist_ok=True, mode=0o755 if one.is_relative_to(base) else 0o777)
 
 
-def writable_by_others(paths: Iterable[Path]) -> Path | None:
-    """The first of some files and folders that someone other than the user and root may write to.
+def writable_by_others(paths: Iterable[Path], owners: Container[int] = ()) -> Path | None:
+    """The first of some files and folders that a user who is not trusted may write to.
 
-    None where the operating system has no such owners and modes.
+    Trusted are the user, root and further `owners`. None where the operating system has no such
+    owners and modes.
     """
     if not hasattr(os, "getuid"):
         return None
     for path in paths:
         held = path.stat()
-        if held.st_uid not in (0, os.getuid()) or held.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        by_group = held.st_mode & stat.S_IWGRP and not _is_private(held.st_gid, held.st_uid)
+        if is_foreign(path, owners) or by_group or held.st_mode & stat.S_IWOTH:
             return path
     return None
+
+
+def is_foreign(path: Path, owners: Container[int] = ()) -> bool:
+    """Whether neither the user nor root nor one of `owners` owns a file."""
+    owner = path.stat().st_uid
+    return owner not in (0, os.getuid()) and owner not in owners
+
+
+def _is_private(group: int, owner: int) -> bool:
+    """Whether a group has its owner's name and no other member, as umask 002 presupposes."""
+    import grp
+    import pwd
+
+    try:
+        name, members = pwd.getpwuid(owner).pw_name, grp.getgrgid(group)
+    except KeyError:
+        return False
+    others = {one.pw_name for one in pwd.getpwall() if one.pw_gid == group}.union(members.gr_mem)
+    return members.gr_name == name and others <= {name}
 
 
 def seal(directory: Path, name: str) -> None:

@@ -27,6 +27,9 @@ FOLDER = Path(__file__).with_name("libraries")
 
 DIGEST = "digest"
 
+SOURCE = Path(__file__)
+"""Whoever owns it can run code as the user anyway."""
+
 _LOADING = ("cache.py", "compilation.py", "compiled_code.py", "compiler.py", "native.py")
 """Sources that find compiled code, and have no influence on it."""
 
@@ -83,6 +86,12 @@ class Choice(NamedTuple):
     """Whether there is one that would fit this machine."""
 
 
+def shipped() -> Path | None:
+    """The library for this machine, if there is one, of whichever sources."""
+    names = [name_of(sys.platform, machine(), level) for level in levels()]
+    return next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
+
+
 @functools.cache
 def choose() -> Choice:
     """Choose the library for this machine and these sources, if there is one."""
@@ -90,15 +99,18 @@ def choose() -> Choice:
         return Choice(None, "VIBROIMPACT_ENGINE is numba")
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return Choice(None, "NUMBA_DISABLE_JIT is set")
-    names = [name_of(sys.platform, machine(), level) for level in levels()]
-    path = next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
+    path = shipped()
     if path is None:
         return Choice(None, f"there is no machine code for {sys.platform}, {machine()}")
     if (FOLDER / DIGEST).read_text().strip() != digest():
         return Choice(None, f"{path.name} was made of other sources (make kernels)", True)
     # Whoever can write to it can run code as the user.
-    if writable := cache.writable_by_others((FOLDER, path)):
-        return Choice(None, f"other users may write to {str(writable)!r} (chmod go-w)", True)
+    owners = (SOURCE.stat().st_uid,)
+    if writable := cache.writable_by_others((FOLDER, path), owners):
+        why = f"other users may write to {str(writable)!r} (chmod go-w)"
+        if cache.is_foreign(writable, owners):
+            why = f"{str(writable)!r} belongs to another user (chown it, or install it yourself)"
+        return Choice(None, why, True)
     return Choice(path)
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
+from vibroimpact.engine import native
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import change, presets, share
 from vibroimpact.explorer.controls import controls
@@ -85,6 +86,7 @@ class Session:
             "scenarios": {name: area.colour for name, area in SCENARIOS.items()},
             "meanings": {one.label: one.meaning for one in Scenario},
             "plane": {"x": plane.STIFFNESS, "y": plane.GAP},
+            "compiles": native.find_library() is None,
         }
 
     def take(self, message: object) -> Message:

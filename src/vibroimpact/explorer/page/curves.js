@@ -18,7 +18,9 @@ export class Curves {
     const names = picture.panels.map((panel) => panel.name).join();
     if (names !== this.names) {
       this.box.replaceChildren();
-      this.charts = picture.panels.map((panel) => new Chart(this.box, { name: `${panel.label.join(" ")} over frequency`, x: picture.axis, y: panel.label }));
+      const count = picture.panels.length;
+      this.charts = picture.panels.map((panel, k) => new Chart(this.box, { name: `${panel.label.join(" ")} over frequency`, x: picture.axis, y: panel.label, stacked: true, last: k === count - 1 }));
+      this.box.parentElement.style.setProperty("--panels", count);
       for (const chart of this.charts) chart.redraw = () => this.draw(true);
       this.names = names;
     }

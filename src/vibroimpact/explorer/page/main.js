@@ -12,7 +12,7 @@ import { asPicture, copy, keep } from "./save.js";
 const PATIENCE = 400;
 const LONG = 3000;
 const OFFLINE = document.body.classList.contains("offline");
-const FIRST = OFFLINE ? "computing …" : "computing … (compiling on first use: up to a minute, only once)";
+const COMPILING = "computing … (compiling on first use: up to a minute, only once)";
 const id = (name) => document.getElementById(name);
 const status = id("status");
 let state = null;
@@ -21,6 +21,7 @@ let resting = true;
 let waiting = [];
 let asked = 0;
 
+say(OFFLINE ? "loading …" : "connecting …");
 const link = new Link({
   told,
   changed(how, why) {
@@ -51,7 +52,7 @@ function patient(begin) {
   waiting = [];
   if (!begin) return;
   waiting.push(setTimeout(() => document.body.classList.add("late"), PATIENCE));
-  for (const [when, words] of [[PATIENCE, "computing …"], [LONG, FIRST]]) waiting.push(setTimeout(() => say(words), when));
+  for (const [when, words] of [[PATIENCE, "computing …"], [LONG, choices.compiles ? COMPILING : "computing …"]]) waiting.push(setTimeout(() => say(words), when));
 }
 
 function say(text, lost = false) {

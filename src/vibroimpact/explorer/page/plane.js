@@ -67,7 +67,7 @@ export class Plane {
           const item = document.createElement("li");
           const key = Object.assign(document.createElement("b"), { textContent: short(name) });
           key.style.background = scenarios[name];
-          item.append(key, meaning);
+          item.append(key, " ", meaning);
           return item;
         }),
       );
@@ -115,7 +115,7 @@ export class Basins {
         const item = document.createElement("li");
         const key = Object.assign(document.createElement("b"), { textContent: letter(k) });
         key.style.background = BASINS[k % BASINS.length];
-        item.append(key, words);
+        item.append(key, " ", words);
         return item;
       }),
     );

@@ -2,6 +2,10 @@
 
 const NS = "http://www.w3.org/2000/svg";
 const MARGIN = { left: 62, right: 10, top: 8, bottom: 34 };
+// Of panels one above the other on a small screen: a label beside the axis is longer than the axis.
+const SMALL_SCREEN = matchMedia("(max-width: 700px), (max-height: 500px)");
+const STACKED = { left: 44, right: 10, top: 19, bottom: 18 };
+const LAST = { ...STACKED, bottom: 32 };
 
 // Parts of a text of which every second one is a subscript: "K_j" and "δ0" have one.
 const SYMBOL = /(?<!\w)([A-Za-zα-ωΑ-Ω])_([a-z0-9]{1,3})(?!\w)|([δω])(0)(?!\d)/gu;
@@ -71,13 +75,13 @@ const power = (value) => {
 };
 
 export class Chart {
-  constructor(parent, { name, x, y, xlog = false, ylog = false, wide = false }) {
+  constructor(parent, { name, x, y, xlog = false, ylog = false, wide = false, stacked = false, last = false }) {
     this.box = document.createElement("div");
     this.box.className = wide ? "chart wide" : "chart";
     parent.append(this.box);
     this.svg = element("svg", { role: "img", "aria-label": name }, this.box);
     this.layers = Object.fromEntries(["bands", "axes", "lines", "marks", "over"].map((id) => [id, element("g", { class: id }, this.svg)]));
-    Object.assign(this, { name, xlabel: x, ylabel: y, xlog, ylog, x: [0, 1], y: [0, 1], paths: new Map() });
+    Object.assign(this, { name, xlabel: x, ylabel: y, xlog, ylog, stacked, last, x: [0, 1], y: [0, 1], paths: new Map() });
     this.measure();
     new ResizeObserver(() => this.redraw && this.redraw()).observe(this.box);
   }
@@ -85,23 +89,25 @@ export class Chart {
   // Looked up once a drawing: asking the page in between would let it lay out anew each time.
   measure() {
     this.size = [this.box.clientWidth || 400, this.box.clientHeight || 200];
+    this.above = this.stacked && SMALL_SCREEN.matches;
+    this.margin = this.above ? (this.last ? LAST : STACKED) : MARGIN;
   }
 
   toX(value) {
     const [low, high] = this.xlog ? this.x.map(Math.log10) : this.x;
-    return MARGIN.left + (((this.xlog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[0] - MARGIN.left - MARGIN.right);
+    return this.margin.left + (((this.xlog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[0] - this.margin.left - this.margin.right);
   }
 
   toY(value) {
     const [low, high] = this.ylog ? this.y.map(Math.log10) : this.y;
-    return this.size[1] - MARGIN.bottom - (((this.ylog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[1] - MARGIN.top - MARGIN.bottom);
+    return this.size[1] - this.margin.bottom - (((this.ylog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[1] - this.margin.top - this.margin.bottom);
   }
 
   // Values under a point of the page.
   at(clientX, clientY) {
     const box = this.box.getBoundingClientRect();
-    const across = (clientX - box.left - MARGIN.left) / (box.width - MARGIN.left - MARGIN.right);
-    const up = (box.bottom - MARGIN.bottom - clientY) / (box.height - MARGIN.top - MARGIN.bottom);
+    const across = (clientX - box.left - this.margin.left) / (box.width - this.margin.left - this.margin.right);
+    const up = (box.bottom - this.margin.bottom - clientY) / (box.height - this.margin.top - this.margin.bottom);
     const along = ([low, high], share, log) => (log ? low * (high / low) ** share : low + share * (high - low));
     return [along(this.x, across, this.xlog), along(this.y, up, this.ylog)];
   }
@@ -113,7 +119,7 @@ export class Chart {
     const [width, height] = this.size;
     const group = this.layers.axes;
     group.replaceChildren();
-    const [left, right, top, bottom] = [MARGIN.left, width - MARGIN.right, MARGIN.top, height - MARGIN.bottom];
+    const [left, right, top, bottom] = [this.margin.left, width - this.margin.right, this.margin.top, height - this.margin.bottom];
     const xs = this.xlog ? decades(...x) : ticks(...x, Math.max(width / 75, 4));
     const ys = this.ylog ? decades(...y) : ticks(...y, height / 33);
     for (const value of xs) {
@@ -125,7 +131,11 @@ export class Chart {
       element("text", { x: left - 5, y: this.toY(value) + 4, "text-anchor": "end" }, group, this.ylog ? power(value) : label(value));
     }
     element("path", { class: "axis", d: `M${left} ${top}V${bottom}H${right}` }, group);
-    element("text", { x: (left + right) / 2, y: height - 6, "text-anchor": "middle", class: "soft" }, group, this.xlabel);
+    if (!this.above || this.last) element("text", { x: (left + right) / 2, y: height - 6, "text-anchor": "middle", class: "soft" }, group, this.xlabel);
+    if (this.above) {
+      element("text", { x: 2, y: 12, class: "soft" }, group, [ylabel].flat().join(" "));
+      return;
+    }
     [ylabel].flat().forEach((words, i, all) => {
       const place = `translate(${(all.length > 1 ? 11 : 20) + 13 * i} ${(top + bottom) / 2}) rotate(-90)`;
       element("text", { transform: place, "text-anchor": "middle", class: "soft" }, group, words);
@@ -167,16 +177,16 @@ export class Chart {
   }
 
   upright(name, kind, x) {
-    return this.path(name, kind, `M${this.toX(x)} ${MARGIN.top}V${this.size[1] - MARGIN.bottom}`);
+    return this.path(name, kind, `M${this.toX(x)} ${this.margin.top}V${this.size[1] - this.margin.bottom}`);
   }
 
   level(name, kind, y) {
-    return this.path(name, kind, `M${MARGIN.left} ${this.toY(y)}H${this.size[0] - MARGIN.right}`);
+    return this.path(name, kind, `M${this.margin.left} ${this.toY(y)}H${this.size[0] - this.margin.right}`);
   }
 
   bands(spans) {
     let d = "";
-    for (const [low, high] of spans) d += `M${this.toX(low)} ${MARGIN.top}H${this.toX(high)}V${this.size[1] - MARGIN.bottom}H${this.toX(low)}Z`;
+    for (const [low, high] of spans) d += `M${this.toX(low)} ${this.margin.top}H${this.toX(high)}V${this.size[1] - this.margin.bottom}H${this.toX(low)}Z`;
     return this.path("bands", "band", d, "bands");
   }
 

@@ -5,17 +5,19 @@ const text = (name) => document.getElementById(name).textContent;
 export class Link {
   constructor({ told, changed, address }) {
     Object.assign(this, { told, changed, number: 0, open: false });
-    const source = new Blob([text("worker")], { type: "text/javascript" });
-    this.worker = new Worker(URL.createObjectURL(source));
-    this.worker.onerror = (event) => changed("lost", `The computation failed (${event.message}); reload the page`);
-    this.worker.onmessage = ({ data }) => {
-      if (data.hello) this.begun(address());
-      told(data);
-    };
-    this.begin();
+    this.begin(address).catch((error) => changed("lost", `The page cannot start here (${error}); open it in a newer browser`));
   }
 
-  async begin() {
+  async begin(address) {
+    const source = new Blob([text("worker")], { type: "text/javascript" });
+    this.worker = new Worker(URL.createObjectURL(source));
+    const failed = (why) => this.changed("lost", `The computation failed (${why}); reload the page`);
+    this.worker.onerror = (event) => failed(event.message);
+    this.worker.onmessage = ({ data }) => {
+      if (data.failed) return failed(data.failed);
+      if (data.hello) this.begun(address());
+      this.told(data);
+    };
     const packed = Uint8Array.from(atob(text("engine")), (sign) => sign.charCodeAt(0));
     const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     const module = await new Response(unpacked).arrayBuffer();

@@ -11,12 +11,15 @@ here.onmessage = () => resting();
 const rest = () => new Promise((done) => ((resting = done), there.postMessage(null)));
 const tell = (message) => self.postMessage(message);
 
-self.onmessage = async ({ data }) => {
+async function answer(data) {
   if (data.module) {
     const { instance } = await WebAssembly.instantiate(data.module, {});
     instance.exports._initialize?.();
     session = new Session(new Engine(instance, data.facts.engine), data.facts, tell, rest);
     tell({ ...session.hello(), ...session.told() });
   } else tell(session.take(data));
-  session.work();
-};
+  await session.work();
+}
+
+// What is thrown in an asynchronous function does not reach the page by itself.
+self.onmessage = ({ data }) => answer(data).catch((error) => tell({ failed: String(error) }));
