@@ -298,6 +298,20 @@ def test_what_parts_at_the_first_instant_is_not_seen_to_pull(phase: float) -> No
     assert not faults(assembly, motion, "done")
 
 
+def test_bodies_that_part_within_a_rounding_do_not_meet() -> None:
+    """Where a stop has no gap, nothing of its clearance tells how exact a displacement is."""
+    assembly = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        links={name: vi.Link("ground", name, vi.Isolator(1.0, 0.1)) for name in "ab"},
+        stops={"wall": vi.Link("ground", "a", vi.RigidStop(0.0, 0.0))},
+    )
+    start = vi.State(displacement={"a": -1e-21, "b": 0.6}, velocity={"a": 1e-11, "b": 0.05})
+    rig = vi.Rig(assembly, vi.Harmonic(1e-14, 1.0, -1.0))
+    motion = vi.simulate(rig, 0.1, start, samples=8)
+    assert motion.sizes["event"] == 0
+    assert motion["velocity"].sel(mass="a").min() > 0.9e-11
+
+
 @pytest.mark.parametrize(
     ("seed", "which"),
     [
@@ -308,6 +322,7 @@ def test_what_parts_at_the_first_instant_is_not_seen_to_pull(phase: float) -> No
         pytest.param(21, 4543, id="a stop that pushes again within the step in which it ceased"),
         pytest.param(3, 45, id="a mass held by two others, of which each gave it its velocity"),
         pytest.param(3, 305, id="a rest whose force begins with a high derivative"),
+        pytest.param(51, 2615, id="bodies that part more slowly than an impact is exact"),
         pytest.param(51, 695, id="a stop that is left with a jerk, and met within the same step"),
         pytest.param(61, 283, id="a curved stop at zero that is pressed by a high derivative"),
         pytest.param(61, 40, id="a drag between bodies that stops hold together"),

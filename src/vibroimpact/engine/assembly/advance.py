@@ -284,6 +284,21 @@ def order_of_zero(
 
 
 @kernel
+def _reach(plan: Vector, f: int, mode: int) -> float:
+    """How far the motion goes in the time in which it changes, by which an event is misplaced (m).
+
+    Bodies that part so slowly that they have not left that rounding have not met again.
+    """
+    if mode >> f & 1:
+        return 0.0
+    n, fastest = int(plan[at.MASSES]), 0.0
+    for i in range(n):
+        fastest = max(fastest, abs(plan[int(plan[at.Y]) + n + i]))
+    found: float = fastest / max(plan[at.STIFF_RATE], 1e-200)
+    return found
+
+
+@kernel
 def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> float:
     """When a stop's watched function first falls to zero, as a share of the step, or NONE."""
     b = beyond(plan, int(plan[at.BERNSTEIN]))
@@ -297,7 +312,7 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
             d = 0.0
     if zeros == 0 and b[0] + d <= 0.0 and plan[at.TABLE_NOW] > 0.0:
         expand_watched(plan, f, mode, length)
-    if zeros == 0 and b[0] + d < -_WRONG * size:
+    if zeros == 0 and b[0] + d < -_WRONG * (size + _reach(plan, f, mode)):
         if mode >> f & 1:
             plan[int(plan[at.ZEROS]) + f] = float(JUMPED)
         return 0.0
