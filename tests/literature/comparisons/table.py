@@ -17,13 +17,14 @@ from pathlib import Path
 ROOT = Path(__file__).parents[3]
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
-from literature.comparisons import impact_oscillators, motions, records  # noqa: E402
+from literature.comparisons import assemblies, impact_oscillators, motions, records  # noqa: E402
 from literature.comparisons.comparison import AbsentError, Comparison  # noqa: E402
 
 PAGE = ROOT / "docs" / "validation.md"
 COMPARISONS: list[Comparison] = [
     *impact_oscillators.COMPARISONS,
     *motions.COMPARISONS,
+    *assemblies.COMPARISONS,
     *records.COMPARISONS,
 ]
 HEAD = "| Source | Quantity | Theirs | Ours | Difference | Allowed |"
