@@ -16,6 +16,7 @@ _VARY = ("--vary", "frequency=2Hz:2.1Hz")
 _RECORD, _TEST = "quake.csv", "test.csv"
 
 COMMANDS = {
+    "show": (_CASE,),
     "sweep": (_CASE, *_FEW, "--step", "0.1Hz"),
     "motion": (_CASE, *_SINE),
     "branch": (_CASE, *_VARY, "--random", "0"),
