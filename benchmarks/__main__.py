@@ -9,6 +9,7 @@ from benchmarks.assemblies import assemblies, first_use, masses, moat
 from benchmarks.basins import basins
 from benchmarks.branches import branches
 from benchmarks.earthquakes import earthquakes
+from benchmarks.fixed import fixed
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
 from benchmarks.page import page
@@ -31,6 +32,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "branches": lambda: (branches(),),
         "basins": lambda: (basins(),),
         "page": lambda: (page(),),
+        "fixed": lambda: (fixed(),),
         "figure": lambda: (first_figure(),),
         "startup": lambda: (startup(compiling()),),
     }

@@ -49,6 +49,7 @@ study file that describes your own rig (vibroimpact help rigs).
 For example:
 
     vibroimpact init study.toml
+    vibroimpact show study.toml
     vibroimpact sweep B2-G1-A3
     vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
     vibroimpact sweep study.toml --gap 12mm --output results
@@ -79,6 +80,7 @@ Exit codes: 0 (completed), 1 (results could not be written), 2 (invalid input), 
 
 _COMMANDS = (
     "init",
+    "show",
     "sweep",
     "motion",
     "branch",

@@ -10,12 +10,15 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.model import Assembly
+from vibroimpact.model import Assembly, Bumper, Isolator, Link, Oscillator, RigidStop, Stop
 from vibroimpact.model.argument_types import String
 from vibroimpact.model.assembly.drawing import Drawing, drawing
+from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.public import public
+from vibroimpact.model.written_units import unitless, written_for
 
 _INCH = 72.0
 _LEGIBLE = 6.0
@@ -89,6 +92,36 @@ def assembly_drawing(
     draw(ax, made, size)
     ax.set_aspect("equal")
     return ax
+
+
+def oscillator_drawing(oscillator: Oscillator, *, title: str | None = None) -> Axes:
+    """Draw one mass, its isolator, and its stops with their gaps to scale.
+
+    Parameters
+    ----------
+    oscillator
+        The oscillator.
+    title
+        Title of the figure.
+    """
+    # A drawing shows the gaps and the kinds of stops, and no other values of them.
+    spring = Isolator(stiffness=1.0, damping=0.0)
+    joined = {"right": ("mass", GROUND), "left": (GROUND, "mass")}
+    stops = {}
+    for side in SIDES:
+        stop: Stop | None = getattr(oscillator, side)
+        if stop is not None:
+            law = RigidStop(0.5, stop.gap) if stop.rigid else Bumper(1.0, 0.0, stop.gap)
+            stops[side] = Link(*joined[side], law)
+    held = not oscillator.isolator.linear or oscillator.isolator.initial_stiffness > 0.0
+    with written_for(oscillator):
+        alike = Assembly(
+            {"mass": oscillator.mass},
+            {"isolator": Link(GROUND, "mass", spring)} if held else {},
+            stops,
+            units="none" if unitless() else "SI",
+        )
+    return assembly_drawing(alike, title=title)
 
 
 def draw(

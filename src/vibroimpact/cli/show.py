@@ -1,0 +1,46 @@
+"""``vibroimpact show``: the rig, its natural frequencies and modes, and a drawing."""
+
+from __future__ import annotations
+
+from vibroimpact import figures
+from vibroimpact.cli import options as opt
+from vibroimpact.cli.function_options import calls
+
+
+@calls(None, "System")
+def show(
+    rig: opt.RigName,
+    /,
+    *,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
+) -> int:
+    """Print the rig, its natural frequencies, modes and static equilibrium, and draw it.
+
+    Nothing is simulated. The drawing shows the masses, the links, and the stops with their gaps to
+    scale. Modes are those without stops; curved links have their initial stiffness. The command
+    writes this file (--name sets NAME):
+
+    - NAME-system.png: the drawing
+
+    For example:
+
+        vibroimpact show B2-G1-A3
+        vibroimpact show neighbours.toml --set gap=1cm
+        vibroimpact show frame.toml --figure pdf --figure-width 180mm
+    """
+    from vibroimpact.cli.results import results
+    from vibroimpact.cli.rig import subject
+    from vibroimpact.facts import system as facts
+    from vibroimpact.figures.assembly import oscillator_drawing
+    from vibroimpact.model import Assembly
+
+    what = subject(rig, changes, output.name, unshaken=True, masses=True)
+    found = facts.facts(what.system)
+    with results(what, output) as written:
+        if isinstance(what.system, Assembly):
+            drawn = figures.assembly_drawing(what.system, title=what.title)
+        else:
+            drawn = oscillator_drawing(what.system, title=what.title)
+        written.draw("drawing", "system", drawn)
+    return written.tell(found, facts.text(found))

@@ -1,0 +1,100 @@
+"""Modes and static equilibrium of a system, as plain values and as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from vibroimpact.facts.number_format import written
+from vibroimpact.facts.tables import Column, table_of
+from vibroimpact.model import Assembly, Oscillator, equilibrium
+from vibroimpact.model.written_units import unitless
+from vibroimpact.response.modes import modes
+
+_SHAPE = "mode_shape"
+
+
+def facts(system: Oscillator | Assembly) -> dict[str, Any]:
+    """Return the static equilibrium and, of several masses, the modes, in SI units."""
+    rest = equilibrium(system).displacement
+    if isinstance(system, Oscillator):
+        return {"equilibrium": {"displacement": rest}}
+    data = modes(system)
+    names = data["mass"].values.tolist()
+    by_mode = ("natural_frequency", "modal_damping_ratio", "effective_mass")
+    found = [
+        {
+            **{name: float(one[name]) for name in by_mode},
+            _SHAPE: dict(zip(names, one[_SHAPE].values.tolist(), strict=True)),
+        }
+        for one in (data.isel(mode=i) for i in range(data.sizes["mode"]))
+    ]
+    moved = {name: float(rest.get(name, 0.0)) for name in names}  # type: ignore[union-attr]
+    return {
+        "modes": found,
+        "equilibrium": {"displacement": moved},
+        "notes": str(data.attrs.get("notes", "")).splitlines(),
+    }
+
+
+def text(found: Mapping[str, Any]) -> RenderableType:
+    """Return the modes and the displacements of the equilibrium as tables."""
+    rest = found["equilibrium"]["displacement"]
+    if "modes" not in found:
+        return Group(Text(), Text(f"Static equilibrium: u = {written('displacement', rest)}"))
+    turn = math.tau if unitless() else 1.0
+    count = len(found["modes"])
+    rows = [
+        {
+            "mode": i + 1,
+            "of_mode": turn * one["natural_frequency"],
+            "damping": None
+            if math.isnan(one["modal_damping_ratio"])
+            else one["modal_damping_ratio"],
+            "effective_mass": one["effective_mass"],
+        }
+        for i, one in enumerate(found["modes"])
+    ]
+    shapes = [
+        {
+            "mass": name,
+            "rest": value,
+            **{str(i + 1): one[_SHAPE][name] for i, one in enumerate(found["modes"])},
+        }
+        for name, value in rest.items()
+    ]
+    by_mode = (
+        Column("mode", "mode"),
+        Column("ω" if unitless() else "frequency (Hz)", "of_mode"),
+        Column("damping ratio", "damping"),
+        Column("effective mass", "effective_mass"),
+    )
+    parts: list[RenderableType] = [
+        Text(),
+        table_of(rows, by_mode, "Modes without stops"),
+        Text(),
+        table_of(
+            shapes,
+            (
+                Column("mass", "mass", left=True),
+                *(Column(f"mode {i + 1}", str(i + 1), 3) for i in range(min(count, _MOST))),
+            ),
+            f"Mode shapes{f' of the first {_MOST}' if count > _MOST else ''}",
+        ),
+        Text(),
+    ]
+    if any(rest.values()):
+        moved = Column("mass", "mass", left=True), Column("displacement", "rest", units="m")
+        parts.append(table_of(shapes, moved, "Static equilibrium"))
+    else:
+        parts.append(Text("Static equilibrium: u = 0 of all masses"))
+    notes = [Text(f"Note: {note}") for note in found["notes"]]
+    return Group(*parts, *([Text()] if notes else []), *notes)
+
+
+_MOST = 8
+"""Largest number of modes whose shapes are printed."""

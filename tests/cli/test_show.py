@@ -1,0 +1,74 @@
+"""``vibroimpact show`` prints modes and the equilibrium of a rig, and draws it."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from vibroimpact.cli import main
+from vibroimpact.figures.assembly import oscillator_drawing
+from vibroimpact.model import FrictionIsolator, Oscillator, RigidStop
+
+COMMAND = "show"
+
+
+def test_one_mass(run, tmp_path) -> None:
+    code, told, errors = run("B2-G1-A3", "--figure", "svg")
+    assert (code, errors) == (0, "")
+    assert "natural frequency 1.1 Hz" in told
+    assert "Static equilibrium: u = 0 m" in told
+    assert (tmp_path / "out/B2-G1-A3-system.svg").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("kind", ["neighbours", "frame", "record", "mass"])
+def test_every_kind_of_study(kind, run, tmp_path) -> None:
+    assert main(["init", str(tmp_path / "own.toml"), "--kind", kind]) == 0
+    code, told, errors = run("own.toml")
+    assert (code, errors) == (0, "")
+    assert told.splitlines()[-1] == "  out/own-system.png"
+    assert "Static equilibrium" in told
+
+
+def test_modes_and_the_equilibrium_are_those_of_the_library(run, tmp_path) -> None:
+    assert main(["init", str(tmp_path / "own.toml"), "--kind", "frame"]) == 0
+    pushed = (tmp_path / "own.toml").read_text() + "\n[assembly.forces]\nroof = '70 kN'\n"
+    (tmp_path / "pushed.toml").write_text(pushed)
+    code, told, errors = run("pushed.toml", "--json")
+    assert (code, errors) == (0, "")
+    found = json.loads(told)
+    first = found["modes"][0]
+    assert first["natural_frequency"] == pytest.approx(found["natural_frequencies"][0])
+    assert max(first["mode_shape"].values()) == pytest.approx(1.0)
+    moved = found["equilibrium"]["displacement"]
+    assert moved["base"] == pytest.approx(0.01)  # 70 kN on 7 MN/m
+    assert moved["roof"] == pytest.approx(0.01 + 3 * 70e3 / 150e6)
+    _, told, _ = run("pushed.toml")
+    assert re.search(r"roof +11\.4$", told, re.M)
+    assert told.count("Note: ") == 1
+    assert "Note: damping: the undamped modes do not decouple it" in told
+
+
+def test_without_units(run, tmp_path) -> None:
+    (tmp_path / "pair.toml").write_text(
+        "[assembly]\nunits = 'none'\nmasses = {a = 1, b = 2}\n"
+        "[assembly.links.s]\nleft = 'ground'\nright = 'a'\n"
+        "stiffness = 1\ndamping = 0.1\n"
+        "[assembly.stops.p]\nleft = 'a'\nright = 'b'\nrestitution = 0.5\ngap = 0.1\n"
+        "[excitation]\namplitude = 1\n"
+    )
+    code, told, errors = run("pair.toml")
+    assert code == 0, errors
+    assert "Hz" not in told
+    assert "mode    ω" in told
+
+
+def test_the_drawing_of_one_mass_has_what_it_has() -> None:
+    wall = RigidStop(0.5, "2 cm")
+    ax = oscillator_drawing(
+        Oscillator("3 t", FrictionIsolator(1e4, 0, friction="1 kN"), right=wall)
+    )
+    words = {text.get_text() for text in ax.texts}
+    assert words >= {"mass\n3000 kg", "isolator", "right: gap 20 mm"}
+    assert not any("left" in one for one in words)
