@@ -1,10 +1,16 @@
-"""The engine and the worker of the page without a server, run by node, against Python."""
+"""The engine and the worker of the page without a server against Python.
+
+They run in node and, where node is not installed, in Chromium; browsers give what node gives.
+"""
 
 from __future__ import annotations
 
+import base64
 import json
 import shutil
 import subprocess
+import threading
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +31,17 @@ from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 
-NODE = shutil.which("node")
+NODE, FIREFOX = shutil.which("node"), shutil.which("firefox") or shutil.which("firefox-esr")
+PROGRAM = Path(__file__).with_name("offline.js").read_text(encoding="utf-8").strip()
+IN_NODE = f"""
+const given = JSON.parse(require("fs").readFileSync(0));
+// The worker waits for messages.
+({PROGRAM})(given).then((found) => process.stdout.write(found, () => process.exit()));
+"""
+IN_FIREFOX = f"""<!doctype html><meta charset="utf-8"><script>
+const send = (body) => fetch("/", {{ method: "POST", body }});
+fetch("/given").then((answer) => answer.json()).then({PROGRAM}).then(send, (why) => send(why));
+</script>"""
 SETTINGS = 50
 EXACT, NEAR = 1e-13, 1e-9
 """Difference over the size of a motion: of its extremes, and at each instant."""
@@ -64,25 +80,74 @@ def drawn(random: np.random.Generator) -> PageState:
     )
 
 
+def given(states: list[PageState]) -> dict:
+    module = base64.b64encode((native.FOLDER / WASM).read_bytes()).decode()
+    tables = [table(one) for one in states]
+    return {
+        "program": worker(),
+        "module": module,
+        "facts": facts(preset(FIRST)),
+        "states": tables,
+    }
+
+
+def in_node(states: list[PageState]) -> list[dict]:
+    command, text = [str(NODE), "-e", IN_NODE], json.dumps(given(states))
+    done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def in_chromium(browser, states: list[PageState]) -> list[dict]:
+    opened = browser.new_page()
+    found = json.loads(opened.evaluate(PROGRAM, given(states)))
+    opened.close()
+    return found
+
+
+def in_firefox(folder: Path, states: list[PageState]) -> list[dict]:
+    there, answers, answered = json.dumps(given(states)).encode(), [], threading.Event()
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self):
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(there if self.path == "/given" else IN_FIREFOX.encode())
+
+        def do_POST(self):
+            answers.append(self.rfile.read(int(self.headers["Content-Length"])))
+            self.send_response(204)
+            self.end_headers()
+            answered.set()
+
+        def log_message(self, *args):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        address = f"http://127.0.0.1:{server.server_port}/"
+        command = [str(FIREFOX), "--headless", "--no-remote", "--profile", str(folder), address]
+        shown = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            assert answered.wait(120), "Firefox does not answer"
+        finally:
+            shown.terminate()
+            shown.wait(30)
+            server.shutdown()
+    return json.loads(answers[0])
+
+
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    if NODE is None:
-        pytest.skip("node is not installed, which runs the page's modules")
-    folder = tmp_path_factory.mktemp("offline")
-    (folder / "worker.js").write_text(worker(), encoding="utf-8")
-    (folder / "facts.json").write_text(json.dumps(facts(preset(FIRST))), encoding="utf-8")
-    command = [NODE, str(Path(__file__).with_name("offline.mjs")), "worker.js"]
-    command += [str(native.FOLDER / WASM), "facts.json"]
+def run(request):
+    if NODE is not None:
+        return in_node
+    browser = request.getfixturevalue("browser")  # or this is skipped, which says so
+    return lambda states: in_chromium(browser, states)
 
-    def run(states: list[PageState]) -> list[dict]:
-        given = json.dumps([table(one) for one in states])
-        done = subprocess.run(
-            command, cwd=folder, input=given, capture_output=True, text=True, timeout=120
-        )
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
 
-    return run
+def settings() -> list[PageState]:
+    random = np.random.default_rng(1)
+    return [drawn(random) for _ in range(SETTINGS)]
 
 
 def numbers(lists: list[list[float | None]]) -> np.ndarray:
@@ -93,8 +158,7 @@ def numbers(lists: list[list[float | None]]) -> np.ndarray:
     (native.FOLDER / native.DIGEST).read_text() != native.digest(), reason="run make kernels"
 )
 def test_sweeps_and_motions_are_those_of_python(run):
-    random = np.random.default_rng(1)
-    states = [drawn(random) for _ in range(SETTINGS)]
+    states = settings()
     compared = 0
     for state, found in zip(states, run(states), strict=True):
         grid = np.linspace(*state.span, curves.COARSE)
@@ -137,6 +201,23 @@ def test_sweeps_and_motions_are_those_of_python(run):
             one, other = motion[name].values, numbers(found["motion"][row : row + 1])[0]
             assert np.abs(one - other).max() <= NEAR * np.abs(one).max()
     assert compared > 0.75 * SETTINGS * curves.COARSE
+
+
+@pytest.mark.skipif(NODE is None, reason="without node, Chromium is compared with Python")
+def test_chromium_gives_what_node_gives(browser):
+    states = settings()
+    assert in_chromium(browser, states) == in_node(states)
+
+
+@pytest.mark.full
+@pytest.mark.skipif(NODE is None or FIREFOX is None, reason="node or Firefox is not installed")
+def test_firefox_gives_what_node_gives(tmp_path):
+    states = settings()
+    for one, other in zip(in_firefox(tmp_path, states), in_node(states), strict=True):
+        # Its sines differ in the last digit.
+        ours, theirs = (found["careful"].pop("spectrum")["displacement"] for found in (one, other))
+        np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-15 * max(theirs))
+        assert one == other
 
 
 def test_pictures_and_knobs_are_those_of_python(run):

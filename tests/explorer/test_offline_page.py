@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import threading
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -241,10 +242,23 @@ def test_a_saved_notebook_shows_the_page_or_a_picture(browser, tmp_path):
     frame = opened.frame_locator("iframe")
     frame.locator("body[data-settled]").wait_for(timeout=60_000)
     assert frame.locator("#text-mass").input_value() == "550 kg"
+    assert opened.is_hidden("img")
     opened.close()
     friction = vi.FrictionIsolator("1 kN/m", "10 N s/m", "20 N")
     curved = vi.Rig(vi.Oscillator("100 kg", friction, vi.Bumper("9 kN/m", 10.0, "5 mm")), "0.05 g")
     assert "data:image/png" in vi.explore(curved)._repr_html_()
+
+
+def test_a_notebook_without_frames_and_scripts_shows_a_picture(browser):
+    explored = vi.explore(FIRST)
+    text = re.sub(r"<(iframe|script)\b.*?</\1>", "", explored._repr_html_(), flags=re.DOTALL)
+    opened = browser.new_page()
+    opened.set_content(text)
+    size = opened.locator("img").evaluate("one => [one.naturalWidth, one.naturalHeight]")
+    assert min(size) > 200
+    assert opened.is_visible("img")
+    opened.close()
+    assert explored._repr_png_().startswith(b"\x89PNG")
 
 
 def test_a_notebook_of_this_machine_shows_the_page_of_its_server(browser, tmp_path):

@@ -73,27 +73,30 @@ async def serving(
 _LIVE = """<script>
 {
   const [frame, live] = [document.getElementById("NAME"), "ADDRESS"];
+  if (frame) document.getElementById("NAME-still").hidden = true;
   const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
-  if (near || location.protocol === "vscode-webview:")
+  if (frame && (near || location.protocol === "vscode-webview:"))
     fetch(live, { mode: "no-cors" }).then(() => {
       frame.removeAttribute("srcdoc");
       frame.src = live;
     }, () => {});
 }
 </script>"""
-"""Shows the server's page where the notebook is on this machine and the server answers."""
+"""Hides the picture beside the frame, and shows the server's page in it where the notebook is on
+this machine and the server answers."""
 
 
 class Explored:
     """A page in a notebook. You can also open its `address` in a browser.
 
     A notebook that is saved shows the page without a server, or a picture of the resonance curves
-    if only Python computes the rig.
+    if only Python computes the rig, or if frames or scripts are removed.
     """
 
     def __init__(self, where: str, height: int, state: PageState) -> None:
         self.address = where
         self._height, self._state = height, state
+        self._png: bytes | None = None
 
     def __repr__(self) -> str:
         return f"explorer at {self.address}"
@@ -103,10 +106,16 @@ class Explored:
         # The address is made of letters, digits and signs that HTML leaves alone.
         live = _LIVE.replace("NAME", name).replace("ADDRESS", self.address)
         return (
+            f'<div id="{name}-still">{_image(self._repr_png_())}</div>'
             f'<iframe id="{name}" srcdoc="{html.escape(self._alone())}" '
             f'title="vibroimpact explorer" width="100%" height="{self._height}" '
             f'style="border: 0" allow="clipboard-write"></iframe>{live}'
         )
+
+    def _repr_png_(self) -> bytes:
+        if self._png is None:
+            self._png = _picture(self._state)
+        return self._png
 
     def _alone(self) -> str:
         """What is shown without the server."""
@@ -115,11 +124,11 @@ class Explored:
         try:
             return page(self._state)
         except InputError as error:
-            return f"<p>{html.escape(str(error))}</p>{_picture(self._state)}"
+            return f"<p>{html.escape(str(error))}</p>{_image(self._repr_png_())}"
 
 
-def _picture(state: PageState) -> str:
-    """The resonance curves as an image."""
+def _picture(state: PageState) -> bytes:
+    """The resonance curves as a PNG image."""
     from matplotlib import pyplot
 
     from vibroimpact.explorer.pictures.curves import swept
@@ -130,7 +139,11 @@ def _picture(state: PageState) -> str:
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=110)
     pyplot.close(figure)
-    data = base64.b64encode(file.getvalue()).decode()
+    return file.getvalue()
+
+
+def _image(png: bytes) -> str:
+    data = base64.b64encode(png).decode()
     return f'<img src="data:image/png;base64,{data}" alt="Resonance curves" style="width: 100%">'
 
 
