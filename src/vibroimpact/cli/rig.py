@@ -34,6 +34,20 @@ from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE, unitless, write_for
 from vibroimpact.response.plausibility import doubt_stops
 
+SEVERAL_MASSES = (
+    "simulate",
+    "sweep",
+    "branch",
+    "bifurcation",
+    "curve",
+    "motion",
+    "basins",
+    "earthquake",
+    "design",
+    "ensemble",
+)
+"""Commands that accept an assembly, which pass ``masses=True`` to `subject`."""
+
 
 class Subject(NamedTuple):
     """The rig of a command, with its name and its study."""
@@ -156,8 +170,7 @@ def subject(
     if isinstance(found.system, Assembly) and not masses:
         raise InputError(
             f"study {text!r}: assembly: this command computes one mass, not an assembly of several "
-            "masses; use vibroimpact simulate, sweep, branch, bifurcation, curve, motion, basins "
-            "or earthquake"
+            f"masses; use vibroimpact {', '.join(SEVERAL_MASSES[:-1])} or {SEVERAL_MASSES[-1]}"
         )
     if shaken is not None:
         found = found._replace(shaking=shaken)

@@ -427,7 +427,7 @@ def _on_a_mass(system: System, shaking: Repeated | Record | None) -> Repeated | 
         size = pretty(shaking.amplitude, shaking.quantity)
         raise InputError(
             f"shaking: {size} acts on one of {len(system.names)} masses; state which, such as "
-            f'Harmonic("{size}", "2 Hz", on="{system.names[-1]}")'
+            f'on = "{system.names[-1]}"'
         )
     return shaking.replace(on=system.names[0])
 

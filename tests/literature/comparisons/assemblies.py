@@ -155,11 +155,9 @@ def bar_matrices(consistent: bool = True) -> tuple[NDArray[np.float64], NDArray[
     mass, stiffness = np.zeros((NODES, NODES)), np.zeros((NODES, NODES))
     element = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6.0 if consistent else np.eye(2) / 2.0
     for i in range(NODES - 1):
-        mass[i : i + 2, i : i + 2] += DENSITY * SECTION * part * element
-        stiffness[i : i + 2, i : i + 2] += (
-            MODULUS * SECTION / part * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        )
-    return mass, stiffness
+        mass[i : i + 2, i : i + 2] += element
+        stiffness[i : i + 2, i : i + 2] += np.array([[1.0, -1.0], [-1.0, 1.0]])
+    return mass * DENSITY * SECTION * part, stiffness * MODULUS * SECTION / part
 
 
 @cache
@@ -174,7 +172,7 @@ def bar(consistent: bool = True, pushed: float = 1e-7) -> tuple[float, float, fl
         None,
         stiffness,
         stops={"wall": vi.Link("ground", "dof_1", vi.RigidStop(0.0, BAR_GAP))},
-        forces={"dof_1": -pushed},
+        forces={"dof_1": -pushed} if pushed else None,
     )
     start = vi.State(velocity=dict.fromkeys(system.names, -BAR_SPEED))
     found = vi.simulate(vi.Rig(system, vi.Harmonic(0.0, 1.0 / 0.0015)), 1, start)

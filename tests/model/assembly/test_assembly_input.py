@@ -84,6 +84,15 @@ BAD = {
         lambda: building(links={"x": {"left": GROUND, "stiffness": 1, "damping": 0}}),
         r"^links\.x\.right: missing; add the name of a mass",
     ),
+    "misspelt end": (
+        lambda: building(links={"x": {"lft": GROUND, "right": "base", "stiffness": 1}}),
+        r"^links\.x\.lft: unknown key; did you mean left\?$",
+    ),
+    "a matrix for masses": (
+        lambda: vi.Assembly.model_validate({"mass": [[1.0]], "stiffness": [[1.0]]}),
+        r"^mass: unknown key; write masses by name as masses, or matrices as matrices\.mass, "
+        r"matrices\.stiffness and matrices\.damping$",
+    ),
     "unit in a link": (
         lambda: building(links=linked(stiffness="5 kg", damping=0)),
         r"^links\.storey\.stiffness: '5 kg' is a mass; use a stiffness",
@@ -217,7 +226,7 @@ BAD = {
     ),
     "force on which": (
         lambda: vi.Rig(building(), "5 kN"),
-        r"^shaking: 5 kN acts on one of 2 masses; state which, such as Harmonic\(",
+        r"^shaking: 5 kN acts on one of 2 masses; state which, such as on = \"roof\"",
     ),
     "base motion on a mass": (
         lambda: vi.Harmonic("0.05 g", 2, on="roof"),

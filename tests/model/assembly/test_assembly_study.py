@@ -1,9 +1,13 @@
 """Study files of assemblies: what is written is read as the same rig."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+import vibroimpact.cli
 from vibroimpact.errors import InputError
 from vibroimpact.model.study import read_rig_study, study_text
 
@@ -142,7 +146,11 @@ def test_a_record_is_not_written():
         ),
         ('"250 t"', '"250 m"', r"assembly\.masses\.Roof-2: '250 m' is a length"),
         (', gap = "20 cm"', "", r"assembly\.stops\.pad\.gap: missing"),
-        ('on = "Roof-2"', "", r"excitation: 5 kN acts on one of 2 masses"),
+        (
+            'on = "Roof-2"',
+            "",
+            r"excitation: 5 kN acts on one of 2 masses; state which, such as on = \"Roof-2\"",
+        ),
         ('on = "Roof-2"', 'on = "attic"', r"excitation\.on: 'attic' is not a mass"),
         ("[assembly.damping]", "[assembly.dmping]", r"assembly\.dmping: unknown key; .*damping\?"),
         ('name = "two storeys"', 'case = "B2-G1-A3"', r"both case and assembly are given"),
@@ -165,3 +173,10 @@ def test_a_command_of_one_mass_refuses_it(tmp_path, capsys):
     told = capsys.readouterr().err
     assert "one mass, not an assembly of several masses" in told
     assert told.count("\n") == 1
+    accepting = [
+        path.stem
+        for path in Path(vibroimpact.cli.__file__).parent.glob("*.py")
+        if "masses=True)" in path.read_text(encoding="utf-8")
+    ]
+    listed = re.search(r"use vibroimpact (.*)", told)[1]
+    assert sorted(re.split(", | or ", listed)) == sorted(accepting)

@@ -215,6 +215,12 @@ class Assembly(Model):
                 f"matrices: {shown(matrices)} is not a table; use Assembly.from_matrices"
             )
         read["matrices"] = matrices
+        for key in ("mass", "stiffness"):
+            if matrices is None and not given["masses"] and key in data:
+                raise InputError(
+                    f"{key}: unknown key; write masses by name as masses, or matrices as "
+                    "matrices.mass, matrices.stiffness and matrices.damping"
+                )
         if (matrices is None) == (not given["masses"]):
             raise InputError(
                 "masses: missing; pass a mapping from names to masses, such as "

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias, cast, get_args
 
 from pydantic import ConfigDict, field_validator, model_serializer, model_validator
 
-from vibroimpact.errors import InputError, errors_at, shown
+from vibroimpact.errors import InputError, errors_at, shown, similar
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
@@ -18,6 +18,7 @@ from vibroimpact.model.own_law import Law
 from vibroimpact.model.quantities import MASS
 from vibroimpact.model.stops import STOPS, Bumper, Stop
 from vibroimpact.model.stops.bumper import returning
+from vibroimpact.model.unknown_keys import LIKENESS
 from vibroimpact.model.validation import Accepts, Model, takes_fields
 
 AnyLaw: TypeAlias = AnyIsolator | Stop
@@ -159,6 +160,9 @@ def read_link(
         )
     for end in ("left", "right"):
         if end not in value:
+            others = [key for key in value if key not in ("left", "right")]
+            if wrong := similar(end, others, LIKENESS):
+                raise InputError(f"{where}.{wrong}: unknown key; did you mean {end}?")
             raise InputError(f"{where}.{end}: missing; add the name of a mass or 'ground'")
         if not isinstance(value[end], str):
             raise InputError(f"{where}.{end}: {shown(value[end])} is not the name of a mass")

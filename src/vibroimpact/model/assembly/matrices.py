@@ -159,6 +159,12 @@ def _matrix(value: Any, field: str, count: int | None, folder: Path) -> NDArray[
 def _check_definite(matrix: NDArray[np.float64], field: str, strict: bool = False) -> None:
     """Raise an error for a matrix that is not positive (semi-)definite."""
     diagonal = np.diag(matrix)
+    if (diagonal < 0.0).any():
+        row = int(diagonal.argmin()) + 1
+        raise InputError(
+            f"{field}: not positive {'' if strict else 'semi-'}definite; row {row}, column {row} "
+            f"is {diagonal[row - 1]:.3g}; pass the matrix of a stable structure"
+        )
     # A matrix of translations and rotations has units that differ from row to row.
     scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
     values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.T) / np.outer(scale, scale))
