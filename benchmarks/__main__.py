@@ -50,7 +50,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "designs": lambda: (designs(),),
         "diagrams": lambda: (diagrams(),),
         "identification": lambda: (identification(),),
-        "fixed": lambda: (fixed(), growth()),
+        "fixed": lambda: (*fixed(), growth()),
         "figure": lambda: (first_figure(),),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
