@@ -32,7 +32,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "branches": lambda: (branches(),),
         "basins": lambda: (basins(),),
         "page": lambda: (page(),),
-        "fixed": lambda: (fixed(),),
+        "fixed": fixed,
         "figure": lambda: (first_figure(),),
         "startup": lambda: (startup(compiling()),),
     }

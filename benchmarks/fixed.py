@@ -1,12 +1,16 @@
 """What every command takes however little it computes: starting, reading, writing, drawing."""
 
+import json
 import math
+import subprocess
+import sys
 import tempfile
+import time
 from pathlib import Path
 
 from benchmarks import fresh
-from benchmarks.report import Table
-from benchmarks.rounds import Spread, digits
+from benchmarks.report import Table, met
+from benchmarks.rounds import Spread, ratio
 
 _ROUNDS = 5
 _CASE = "B2-G1-A3"
@@ -33,10 +37,23 @@ COMMANDS = {
     "classify": (_CASE,),
     "identify": (_TEST, "--rig", _CASE, "--free", "gap", "--starts", "1"),
     "map": ("--vary", "gap_ratio=0.2:0.4:2", "--vary", "stiffness_ratio=5:10:2", "--refine", "0"),
+    "explore": (_CASE, "--no-browser"),
+    "init": (),
     "cache": (),
 }
-"""Words of each command by its name; `explore` serves a page until it is ended, and `init`
-writes a file and computes nothing."""
+"""Words of each command by its name; `explore` is ended once it prints the address of its page."""
+
+_UNIT = "import numpy, xarray, matplotlib.pyplot"
+_ENGINES = {"library": "", "numba": "numba"}
+_MOST = 1.03
+"""Of the library's time over that of code that numba compiled for this processor."""
+_PROBLEM = """\
+import json, time
+from benchmarks import ours
+from benchmarks.rounds import interleave
+calls = {"engine": ours.engine(1_000)}
+print(json.dumps(interleave(calls, 11, clock=time.thread_time)["engine"]))
+"""
 
 
 def inputs(folder: Path) -> None:
@@ -54,34 +71,81 @@ def inputs(folder: Path) -> None:
     )
 
 
-def run(name: str, source: Path) -> fresh.Ended:
-    """Run one command in a process of its own, with the `inputs` of a folder."""
+def run(name: str, source: Path) -> float:
+    """Seconds of one command in a process of its own, with the `inputs` of a folder."""
     words = [str(source / word) if word in (_RECORD, _TEST) else word for word in COMMANDS[name]]
     # A folder of its own: a map that is complete would only be read.
     with tempfile.TemporaryDirectory() as out:
-        return fresh.vibroimpact(name, *words, *([] if name == "cache" else ["--output", out]))
+        if name == "explore":
+            return _until_served(words)
+        if name == "init":
+            words = [str(Path(out) / "rig.toml")]
+        elif name != "cache":
+            words += ["--output", out]
+        return fresh.vibroimpact(name, *words).seconds
 
 
-def fixed() -> Table:
-    """Measure the commands in turn, after each has run once."""
+def _until_served(words: list[str]) -> float:
+    command = [str(Path(sys.executable).with_name("vibroimpact")), "explore", *words]
+    begin = time.perf_counter()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout is not None
+        first = server.stdout.readline()
+        seconds = time.perf_counter() - begin
+        server.terminate()
+    if "http" not in first:
+        raise RuntimeError(f"explore failed: {first}")
+    return seconds
+
+
+def fixed() -> list[Table]:
+    """Measure the commands in turn, after each has run once, and the engine by numba."""
     table = Table(
-        "Fixed part of each command, cached, whole process", ("Command", "s", "Processor")
+        f"Fixed part of each command, whole process, in units of `{_UNIT}` of the same round",
+        ("Command", "Smallest task", "`--help`"),
     )
-    ended: dict[str, list[fresh.Ended]] = {name: [] for name in COMMANDS}
+    units: list[float] = []
+    tasks: dict[str, list[float]] = {name: [] for name in COMMANDS}
+    helps: dict[str, list[float]] = {name: [] for name in COMMANDS}
     with tempfile.TemporaryDirectory() as source:
         inputs(Path(source))
         for name in COMMANDS:
             run(name, Path(source))  # compiles
         for _ in range(_ROUNDS):
-            for name, runs in ended.items():
-                runs.append(run(name, Path(source)))
-    for name, runs in ended.items():
-        seconds = Spread.of([one.seconds for one in runs])
-        work = Spread.of([one.work for one in runs])
-        table.add(f"`{name}`", seconds.text(), digits(work.median))
+            units.append(fresh.python(_UNIT).seconds)
+            for name in COMMANDS:
+                tasks[name].append(run(name, Path(source)))
+                helps[name].append(fresh.vibroimpact(name, "--help").seconds)
+    for name in COMMANDS:
+        table.add(f"`{name}`", ratio(tasks[name], units).text(), ratio(helps[name], units).text())
     table.notes.append(
-        f"The smallest task of each command, {_ROUNDS} times in turn: median and range. The sweeps "
-        "of `classify` and the steps of `branch` and `curve` are as fine as always. `explore` "
-        "serves a page, and is left out."
+        f"The smallest task of each command, {_ROUNDS} times in turn: median and range. The unit "
+        f"takes {Spread.of(units).text()} s. The sweeps of `classify` and the steps of `branch` "
+        "and `curve` are as fine as always. `explore` ends when its page is served."
     )
+    return [table, by_numba()]
+
+
+def by_numba() -> Table:
+    """Time problem P in the library and as numba compiles it, in processes in turn."""
+    seconds: dict[str, list[float]] = {name: [] for name in _ENGINES}
+    for turn in range(_ROUNDS + 1):
+        for name, engine in _ENGINES.items():
+            ended = fresh.python(_PROBLEM, {"VIBROIMPACT_ENGINE": engine})
+            if turn:  # the first compiles
+                seconds[name].append(Spread.of(json.loads(ended.output)).median)
+    behind = ratio(seconds["library"], seconds["numba"])
+    table = Table(
+        "Problem P, 1,000 periods: the library, and the engine compiled by numba",
+        ("Engine", "ms", "Library over numba", "Target", "Verdict"),
+    )
+    table.add("engine, library", Spread.of(seconds["library"]).text(1e3), "", "", "")
+    table.add(
+        "engine, compiled by numba",
+        Spread.of(seconds["numba"]).text(1e3),
+        behind.text(),
+        f"at most {_MOST}",
+        met(behind.median <= _MOST),
+    )
+    table.notes.append(f"{_ROUNDS} processes of each, in turn.")
     return table

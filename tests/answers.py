@@ -3,9 +3,10 @@
     python tests/answers.py keep FILE [RIGS]    before a change
     python tests/answers.py compare FILE        after it: which answers moved, and by how much
 
-Random rigs of all laws under all kinds of shaking, the published campaign, branches, exponents,
-basins, a map and an earthquake. It is not a test: the bits are those of one machine, and a change
-may have a reason to move them.
+Random rigs of all laws under all kinds of shaking, random assemblies, the published campaign,
+branches, exponents, basins, a map and an earthquake. It is not a test: the bits are those of one
+machine, and a change may have a reason to move them. With `VIBROIMPACT_ENGINE=numba` and
+`NUMBA_CPU_NAME=x86-64-v3` in one of the two runs, it compares the machine code that is shipped.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import xarray as xr
 sys.path[:0] = [str(Path(__file__).parent)]
 
 import vibroimpact as vi  # noqa: E402
+from properties.random_assemblies import random_assembly  # noqa: E402
 from properties.random_laws import any_shaking, random_rig  # noqa: E402
 
 RIGS = 400
@@ -42,6 +44,14 @@ def answers(rigs: int) -> Iterator[tuple[str, xr.Dataset]]:
         if motion["status"] == 0:
             yield f"totals {i}", vi.totals(motion)
             yield f"contacts {i}", vi.contacts(motion)
+        try:
+            masses, shaking = random_assembly(np.random.default_rng([SEED, i]))
+        except vi.InputError:  # it has no equilibrium
+            continue
+        yield (
+            f"masses {i}",
+            vi.simulate(vi.Rig(masses, shaking), CYCLES // 4, samples=16, max_events=3000),
+        )
     for case in vi.laboratory.campaign():
         yield f"sweep {case.code}", vi.sweep(case, case.frequencies[::5])
     for code in ("B2-G1-A3", "B3-10mm-A3"):

@@ -49,3 +49,10 @@ def test_what_a_module_uses_exists(path: Path) -> None:
             module = vars(here).get(part.value.id)
             if isinstance(module, ModuleType) and module.__name__.partition(".")[0] in OWN:
                 assert has(module, part.attr), f"{module.__name__} has no {part.attr}"
+
+
+def test_each_command_has_a_smallest_task() -> None:
+    from benchmarks.fixed import COMMANDS
+    from vibroimpact import cli
+
+    assert set(COMMANDS) == set(cli._COMMANDS)

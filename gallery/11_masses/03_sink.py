@@ -11,7 +11,7 @@ bifurcation and a symmetry breaking.
 from math import tau
 
 import vibroimpact as vi
-from vibroimpact.figures import mass_branches, mass_histories, pair_portrait
+from vibroimpact.figures import mass_branches, mass_histories, mass_spectra, pair_portrait
 
 sink = vi.Assembly(
     masses={"host": 1.0, "ball": 0.05},
@@ -42,3 +42,7 @@ def at(amplitude):
 
 above = vi.steady(at(0.021), orbit)
 mass_histories(vi.simulate(at(0.019), 150, above, 32))
+
+# %%
+# With one impact at each stop per cycle, half a cycle apart, the motions have odd harmonics only:
+mass_spectra(vi.fourier_spectrum(vi.steady(rig, orbit)), quantity="displacement")

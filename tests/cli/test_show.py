@@ -55,7 +55,8 @@ def test_without_units(run, tmp_path) -> None:
         "[assembly]\nunits = 'none'\nmasses = {a = 1, b = 2}\n"
         "[assembly.links.s]\nleft = 'ground'\nright = 'a'\n"
         "stiffness = 1\ndamping = 0.1\n"
-        "[assembly.stops.p]\nleft = 'a'\nright = 'b'\nrestitution = 0.5\ngap = 0.1\n"
+        "[assembly.stops.p]\nleft = 'a'\nright = 'b'\n"
+        "kind = 'rigid'\nrestitution = 0.5\ngap = 0.1\n"
         "[excitation]\namplitude = 1\n"
     )
     code, told, errors = run("pair.toml")

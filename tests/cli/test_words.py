@@ -114,7 +114,7 @@ def test_an_unknown_command_lists_all_of_them(refused):
     line = refused("swep")
     assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
     listed = line.partition("? Use ")[2].partition("; ")[0].replace(" or ", ", ").split(", ")
-    assert len(listed) == 20
+    assert len(listed) == 21
     assert set(listed) == {name for name in _app() if not name.startswith("-")}
 
 

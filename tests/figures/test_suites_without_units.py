@@ -125,5 +125,5 @@ def test_force_loop():
         assert ax.lines[0].get_xdata().max() == pytest.approx(size)
     with pytest.raises(vi.InputError, match=r"^amplitude: '5 mm' has a unit, but units is"):
         figures.force_loop(OSCILLATOR.isolator, "5 mm", units="none")
-    with pytest.raises(vi.InputError, match=r"^units: 'cgs'; one of "):
+    with pytest.raises(vi.InputError, match=r"^units: 'cgs' is unknown; use SI"):
         figures.force_loop(OSCILLATOR.isolator, 3.0, units="cgs")

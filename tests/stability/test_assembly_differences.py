@@ -17,8 +17,9 @@ import xarray as xr
 import vibroimpact as vi
 from vibroimpact.cli.study import read_study
 
-RESIDUAL = 1e-8
-"""Of the condition of a bifurcation, at which the search for it ends."""
+RESIDUAL = 5e-8
+"""Of the condition of a bifurcation, at which the search for it ends: the noise of differences of
+1e-8 is 2e-8."""
 
 
 class Differences(NamedTuple):

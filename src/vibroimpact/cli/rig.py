@@ -35,6 +35,7 @@ from vibroimpact.model.written_units import NONE, unitless, write_for
 from vibroimpact.response.plausibility import doubt_stops
 
 SEVERAL_MASSES = (
+    "show",
     "simulate",
     "sweep",
     "branch",

@@ -116,7 +116,7 @@ BAD = {
     ),
     "period of no mass": (
         lambda: building(links={"x": {"left": GROUND, "right": "bas", "period": 1}}),
-        r"^links\.x\.right: 'bas' is not a mass; did you mean 'base'\?",
+        r"^links\.x\.right: 'bas' is not a mass; did you mean base\?",
     ),
     "share of a mass": (
         lambda: building(
