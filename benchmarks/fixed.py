@@ -20,6 +20,7 @@ _VARY = ("--vary", "frequency=2Hz:2.1Hz")
 _RECORD, _TEST = "quake.csv", "test.csv"
 
 COMMANDS = {
+    "help": ("rigs",),
     "show": (_CASE,),
     "sweep": (_CASE, *_FEW, "--step", "0.1Hz"),
     "motion": (_CASE, *_SINE),

@@ -74,7 +74,6 @@ def test_averaging_an_energy_sink_is_off_by_the_ratio_of_masses() -> None:
     assert np.array(shares[:-1]) / shares[1:] == pytest.approx(2.0, rel=0.1)
 
 
-@pytest.mark.xfail(reason="a reaction that begins at 0 ends at once, again and again", strict=False)
 @pytest.mark.filterwarnings("ignore:simulate stopped")
 def test_the_bar_of_siconos_without_a_push() -> None:
     assert known.bar(pushed=0.0)[1] == pytest.approx(known.bar()[1], rel=1e-6)
