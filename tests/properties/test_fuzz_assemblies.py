@@ -328,6 +328,7 @@ def test_bodies_that_part_within_a_rounding_do_not_meet() -> None:
         pytest.param(51, 695, id="a stop that is left with a jerk, and met within the same step"),
         pytest.param(61, 283, id="a curved stop at zero that is pressed by a high derivative"),
         pytest.param(61, 40, id="a drag between bodies that stops hold together"),
+        pytest.param(72, 3363, id="a bumper whose body another stop holds by a third"),
         pytest.param(62, 258, id="a drag of two equal velocities, whose difference is rounding"),
     ],
 )

@@ -154,6 +154,20 @@ def zero_after_impact(plan: Vector, mode: int, g: int, order: float, jumps: bool
     return min(order, 1.0)
 
 
+@kernel
+def let_part(plan: Vector, mode: int, f: int) -> None:
+    """Let the stops beside one whose force jumps leave what they touch with an acceleration.
+
+    Those that share no body with it are moved by bodies that rest on each other.
+    """
+    stops, zeros = int(plan[at.STOP]), beyond(plan, int(plan[at.ZEROS]))
+    for g in range(int(plan[at.STOPS])):
+        kind = plan[stops + g * at.STOP_WIDTH + at.KIND]
+        curved = kind == at.LINK or (kind == at.PUSHING and mode >> g & 1 == 1)
+        if g != f and not curved:
+            zeros[g] = min(zeros[g], 2.0)
+
+
 def impacts(settle: Any) -> Any:
     """Make Newton's law of restitution, with `settles` of a flow."""
 
@@ -170,6 +184,7 @@ def impacts(settle: Any) -> Any:
         if not jumps:
             e = 0.0
         decided = False
+        let_part(plan, mode, f)
         for g in range(count):
             if g != f and coupling[g] != 0.0:
                 rigid = plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID
@@ -205,19 +220,6 @@ def impacts(settle: Any) -> Any:
 impact = impacts(settles)
 
 
-@kernel
-def _jump(plan: Vector, mode: int, f: int) -> None:
-    """Let the stops beside one whose force jumps leave what they touch with an acceleration."""
-    stops, zeros = int(plan[at.STOP]), beyond(plan, int(plan[at.ZEROS]))
-    count = int(plan[at.STOPS])
-    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
-    for g in range(count):
-        kind = plan[stops + g * at.STOP_WIDTH + at.KIND]
-        curved = kind == at.LINK or (kind == at.PUSHING and mode >> g & 1 == 1)
-        if g != f and coupling[g] != 0.0 and not curved:
-            zeros[g] = min(zeros[g], 2.0)
-
-
 @apart
 def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
     """Go through the event of a stop whose watched function is zero; the mode and what it was."""
@@ -230,7 +232,7 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
         # The bodies part with a jerk, or with an acceleration where the force has jumped.
         jumped = zeros[f] == JUMPED
         if jumped:
-            _jump(plan, mode, f)
+            let_part(plan, mode, f)
         zeros[f] = 2.0 if jumped else 3.0
         kind = REST_ENDS
         if not rigid:
@@ -248,7 +250,7 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     if not dashpot:
         deformation[f] = 0.0
     else:
-        _jump(plan, mode, f)
+        let_part(plan, mode, f)
     return mode | bit, CONTACT
 
 

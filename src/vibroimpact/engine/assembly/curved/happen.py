@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     expand_all,
     row_of,
 )
-from vibroimpact.engine.assembly.events import closing, impacts, speeds, switch_mode
+from vibroimpact.engine.assembly.events import closing, impacts, let_part, speeds, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, TURN
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -236,6 +236,7 @@ def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation:
             mode = with_way(plan, f, mode & ~(1 << f), way)
             return _follow(plan, mode, f, way, deformation)
         zeros[f] = float(of.V_FRESH)
+        let_part(plan, mode, f)
         stop_moving(plan, f, y)
         stuck = mode | 1 << f
         enter_mode(plan, stuck)
