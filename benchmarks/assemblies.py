@@ -362,19 +362,23 @@ def first_use() -> Table:
     """Time first uses in a new process that has an empty cache."""
     table = targets("First use of an assembly, in a new process with an empty cache")
     for name, call in _CALLS.items():
-        with fresh.empty_cache() as environment:
-            ended = fresh.python(_FIRST.format(call=call), environment)
-            compiled = fresh.compiled(environment)
-        for shape, seconds in zip(_SHAPES, ended.output.split(), strict=True):
-            table.add(
-                f"{name}: {shape}, s",
-                f"{float(seconds):.2f}",
-                "under 15 s",
-                met(float(seconds) < 15),
-            )
-        table.add(
-            f"{name}: functions compiled", str(compiled), "0 with the library", met(not compiled)
-        )
+        for engine in ("library", "numba"):
+            with fresh.empty_cache() as environment:
+                ended = fresh.python(
+                    _FIRST.format(call=call), {**environment, "VIBROIMPACT_ENGINE": engine}
+                )
+                compiled = fresh.compiled(environment)
+            for shape, seconds in zip(_SHAPES, ended.output.split(), strict=True):
+                table.add(
+                    f"{name}, {engine}: {shape}, s",
+                    f"{float(seconds):.2f}",
+                    "under 15 s",
+                    met(float(seconds) < 15),
+                )
+            if engine == "library":
+                table.add(f"{name}: functions compiled", str(compiled), "0", met(not compiled))
+            else:
+                table.add(f"{name}, {engine}: functions compiled", str(compiled))
     return table
 
 
