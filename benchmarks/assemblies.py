@@ -378,7 +378,7 @@ def first_use() -> Table:
             if engine == "library":
                 table.add(f"{name}: functions compiled", str(compiled), "0", met(not compiled))
             else:
-                table.add(f"{name}, {engine}: functions compiled", str(compiled))
+                table.add(f"{name}, {engine}: functions compiled", str(compiled), "", "")
     return table
 
 
