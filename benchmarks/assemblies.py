@@ -371,7 +371,7 @@ def first_use() -> Table:
             for shape, seconds in zip(_SHAPES, ended.output.split(), strict=True):
                 table.add(
                     f"{name}, {engine}: {shape}, s",
-                    f"{float(seconds):.2f}",
+                    f"{float(seconds):.2g}",
                     "under 15 s",
                     met(float(seconds) < 15),
                 )

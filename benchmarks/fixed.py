@@ -81,7 +81,7 @@ def run(name: str, source: Path) -> float:
             return _until_served(words)
         if name == "init":
             words = [str(Path(out) / "rig.toml")]
-        elif name != "cache":
+        elif name not in ("cache", "help"):
             words += ["--output", out]
         return fresh.vibroimpact(name, *words).seconds
 
