@@ -33,7 +33,7 @@ COMMANDS = {
     "simulate": (_CASE, *_SINE, "--cycles", "1"),
     "record": (_RECORD, "--periods", "2"),
     "earthquake": (_CASE, _RECORD),
-    "design": (_CASE, *_FEW, "--vary", "gap=5mm:10mm:2"),
+    "design": (_CASE, *_VARY, "--vary", "gap=5mm:10mm:2"),
     "ensemble": (_CASE, "--uncertain", "gap=normal:5%", "--draws", "2", *_FEW),
     "classify": (_CASE,),
     "identify": (_TEST, "--rig", _CASE, "--free", "gap", "--starts", "1"),
