@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from literature.comparisons import assemblies as known
 
 TURN = 2.0 * math.pi
 
@@ -31,17 +32,7 @@ def test_where_a_ball_in_a_shaken_cavity_gains_and_loses_stability() -> None:
     def amplitude(y: float) -> float:
         return math.hypot(y - b, sigma * y)
 
-    wall = vi.RigidStop(e, b)
-    ball = vi.Assembly(
-        {"ball": 0.3},
-        stops={"right": vi.Link("ball", "ground", wall), "left": vi.Link("ground", "ball", wall)},
-        units="none",
-    )
-    rig = vi.Rig(ball, vi.Harmonic(0.4, 1.0 / TURN, of="displacement"))
-    start = vi.State(displacement={"ball": 0.9}, velocity={"ball": 0.6})
-    settled = vi.simulate(rig, 300, start, samples=0)
-    branch = vi.branch(rig, vi.orbit(rig, settled), vary={"amplitude": (0.12, 0.9)})
-    (fold, lowest), (breaking, highest) = bifurcations(branch)
+    (fold, lowest), (breaking, highest) = bifurcations(known.cavity())
     assert (fold, breaking) == ("fold", "symmetry breaking")
     assert lowest == pytest.approx(0.157177, abs=6e-7)
     assert highest == pytest.approx(0.732140, abs=6e-7)
@@ -49,28 +40,10 @@ def test_where_a_ball_in_a_shaken_cavity_gains_and_loses_stability() -> None:
     assert highest == pytest.approx(amplitude(math.pi**2 * b / (math.pi**2 - 4.0)), rel=1e-9)
 
 
-def absorber(
-    ratio: float, restitution: float, host: tuple[float, float], hung: tuple[float, float]
-) -> vi.Assembly:
-    """A host of unit mass, and a smaller one on it between mutual rigid stops at ±1."""
-    stop = vi.RigidStop(restitution, 1.0)
-    return vi.Assembly(
-        {"one": 1.0, "two": ratio},
-        links={
-            "base": vi.Link("ground", "one", vi.Isolator(*host)),
-            "hung": vi.Link("one", "two", vi.Isolator(*hung)),
-        },
-        stops={"up": vi.Link("two", "one", stop), "down": vi.Link("one", "two", stop)},
-        units="none",
-    )
-
-
 def test_two_masses_with_mutual_stops_of_pwsdde_cont() -> None:
     """PWSDDE-cont's impact Duffing system without its cubic terms, at ω = 1.5."""
-    mu, r, zeta, xi, phi = 0.05, 0.9, 0.02, 0.127, 0.952
-    system = absorber(mu, r, (1.0, 2.0 * zeta), (mu * phi**2, 2.0 * mu * xi))
-    rig = vi.Rig(system, vi.Harmonic(1.0, 1.5 / TURN, math.pi / 2, of="force", on="one"))
-    found = vi.orbit(rig, vi.simulate(rig, 600, samples=0))
+    mu, r = 0.05, 0.9
+    found = known.absorber()
     assert int(found["stable"]) == 1
     assert found.sizes["event"] == 2
     (at,) = np.flatnonzero(found["event_stop"].values == "up")
@@ -126,16 +99,7 @@ def test_an_unstable_orbit_of_an_impact_damper() -> None:
 
 def test_bifurcations_of_nlvibs_unilateral_spring() -> None:
     """NLvib's example 03: stable near Ω = 0.635, Neimark–Sacker near 0.62, doubling near 0.74."""
-    link = vi.Isolator(1.0, 0.03)
-    system = vi.Assembly(
-        {"one": 1.0, "two": 1.0},
-        links={"between": vi.Link("one", "two", link), "base": vi.Link("ground", "two", link)},
-        stops={"spring": vi.Link("one", "ground", vi.Bumper(100.0, 0.0, 1.0))},
-        units="none",
-    )
-    force = vi.Harmonic(0.1, 0.8 / TURN, math.pi / 2, of="force", on="two")
-    rig = vi.Rig(system, force)
-    found = vi.branch(rig, vary={"frequency": (0.6 / TURN, 0.8 / TURN)})
+    rig, found = known.rig_at_one_sided_spring(), known.one_sided_spring()
     places = [(kind, TURN * value) for kind, value in bifurcations(found)]
     (torus,) = (value for kind, value in places if kind == "Neimark-Sacker")
     doubling = min(value for kind, value in places if kind == "period doubling")

@@ -5,7 +5,6 @@ Of orbits, it knows no more than the states after a period: derivatives are cent
 
 from __future__ import annotations
 
-import math
 from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
@@ -15,6 +14,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from literature.comparisons import assemblies as known
 from vibroimpact.cli.study import read_study
 
 RESIDUAL = 5e-8
@@ -125,15 +125,6 @@ def test_tori_and_folds_of_neighbours_are_those_of_differences() -> None:
 
 def test_doublings_of_the_period_are_those_of_differences() -> None:
     """Two masses, the first one at a one-sided spring."""
-    link = vi.Isolator(1.0, 0.03)
-    system = vi.Assembly(
-        {"one": 1.0, "two": 1.0},
-        links={"between": vi.Link("one", "two", link), "base": vi.Link("ground", "two", link)},
-        stops={"spring": vi.Link("one", "ground", vi.Bumper(100.0, 0.0, 1.0))},
-        units="none",
-    )
-    turn = 2.0 * math.pi
-    rig = vi.Rig(system, vi.Harmonic(0.1, 0.8 / turn, math.pi / 2, of="force", on="two"))
-    branch = vi.branch(rig, vary={"frequency": (0.6 / turn, 0.8 / turn)})
+    rig, branch = known.rig_at_one_sided_spring(), known.one_sided_spring()
     wanted = {"Neimark-Sacker": 1, "period doubling": 2, "fold": 1}
     bifurcations_agree(rig, branch, wanted, 1e-8, 1e-3)

@@ -212,7 +212,7 @@ def design_rig(
 ) -> tuple[Oscillator, BySines | ByRecords]:
     """Read the oscillator of a design, and what it is designed for.
 
-    ``frequencies`` is the range of the sines, as it was passed.
+    ``frequencies`` is the range of the sines as the caller passed it, or None.
 
     Raises
     ------

@@ -7,18 +7,17 @@ them: the steps of a continuous branch shrink with their intervals, and a jump r
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.response.curve_pair import Direction
 from vibroimpact.response.mass_jumps import MassJumps, mass_steps
-from vibroimpact.response.resonance import APART, STEP, Features, share_of_change
+from vibroimpact.response.resonance import APART, STEP, Features, Place, share_of_change
 from vibroimpact.response.sweep import sweep
 
 PARTS = 8
@@ -32,6 +31,7 @@ to three times its height, a few hundred show that it is smooth."""
 _SETTLING = ("tolerance", "max_cycles", "window", "max_events")
 
 Kind = Literal["jump", "steep", "smooth"]
+_Jump = TypeVar("_Jump")
 
 
 class _Step(NamedTuple):
@@ -57,16 +57,12 @@ def confirm_jumps(rig: AnyRig, data: xr.Dataset, found: Features) -> Features:
     found
         What `resonance.features` found in it.
     """
-    ends = {("forward", one.high, one.above) for one in found.hysteresis}
-    ends |= {("backward", one.low, one.below) for one in found.hysteresis}
+    ends = set[Place]().union(*(one.jumps for one in found.hysteresis))
     kinds = [
         "jump" if one[:3] in ends else _kind(rig, data, one[:3], one.settled, [(one.by, None)])
         for one in found.jumps
     ]
-    jumps, steep = (
-        tuple(one for one, kind in zip(found.jumps, kinds, strict=True) if kind == wanted)
-        for wanted in ("jump", "steep")
-    )
+    jumps, steep = _sorted(found.jumps, kinds)
     return found._replace(jumps=jumps, steep=steep)
 
 
@@ -81,23 +77,30 @@ def confirmed_mass_jumps(rig: AnyRig, data: xr.Dataset) -> MassJumps:
         Its sweep.
     """
     found = mass_steps(data)
-    kinds = {
-        place: "jump"
+    kinds = [
+        "jump"
         if place in found.apart
         else _kind(rig, data, place, one.settled, found.curves[place])
         for place, one in found.jumps.items()
-    }
+    ]
+    return MassJumps(*_sorted(found.jumps.values(), kinds))
+
+
+def _sorted(
+    found: Iterable[_Jump], kinds: Iterable[str]
+) -> tuple[tuple[_Jump, ...], tuple[_Jump, ...]]:
+    """Return those that are jumps, and those that are steep."""
+    pairs = list(zip(found, kinds, strict=True))
     jumps, steep = (
-        tuple(one for place, one in found.jumps.items() if kinds[place] == wanted)
-        for wanted in ("jump", "steep")
+        tuple(one for one, kind in pairs if kind == wanted) for wanted in ("jump", "steep")
     )
-    return MassJumps(jumps, steep)
+    return jumps, steep
 
 
 def _kind(
     rig: AnyRig,
     data: xr.Dataset,
-    place: tuple[Direction, float, float],
+    place: Place,
     settled: bool,
     curves: Sequence[tuple[str, str | None]],
 ) -> Kind:

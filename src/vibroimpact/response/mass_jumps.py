@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.response.curve_pair import Direction, Swept
-from vibroimpact.response.resonance import hysteresis, jumps_beside, share_of_change
-
-Place: TypeAlias = tuple[Direction, float, float]
-"""A direction and two neighbouring frequencies in its order."""
+from vibroimpact.response.resonance import Place, hysteresis, jumps_beside, share_of_change
 
 _OF_MASSES = {"eta_a": "peak_acceleration", "eta_d": "peak_displacement"}
 
@@ -77,8 +74,7 @@ def mass_steps(data: xr.Dataset) -> MassSteps:
         frequency = swept["frequency"].values
         both = Swept(frequency, directions, a, d, periodic, swept["period"].values, touching)
         loops = hysteresis(both)
-        ends = {("forward", one.high, one.above) for one in loops}
-        ends |= {("backward", one.low, one.below) for one in loops}
+        ends = set[Place]().union(*(one.jumps for one in loops))
         for jump in jumps_beside(loops, both):
             place = jump[:3]
             k = directions.index(jump.direction)

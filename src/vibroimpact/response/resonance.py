@@ -25,7 +25,7 @@ decides.
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, TypeVar
+from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -86,6 +86,10 @@ class Jump(NamedTuple):
         return 0.5 * (self.before + self.after)
 
 
+Place: TypeAlias = tuple[Direction, float, float]
+"""A direction and two neighbouring frequencies in its order."""
+
+
 class Hysteresis(NamedTuple):
     """A range of frequencies in which the two directions follow different motions."""
 
@@ -114,6 +118,16 @@ class Hysteresis(NamedTuple):
         low = self.low if self.below is None else 0.5 * (self.below + self.low)
         high = self.high if self.above is None else 0.5 * (self.high + self.above)
         return low, high
+
+    @property
+    def jumps(self) -> set[Place]:
+        """Where its motions end, between two frequencies in the order of each direction."""
+        found: set[Place] = set()
+        if self.above is not None:
+            found.add(("forward", self.high, self.above))
+        if self.below is not None:
+            found.add(("backward", self.low, self.below))
+        return found
 
 
 class Range(NamedTuple):
