@@ -31,9 +31,9 @@ def stops_of(*oscillators: Oscillator) -> NDArray[np.str_]:
     return np.array(found, dtype="<U5")
 
 
-def stop_names(sides: NDArray[Any]) -> NDArray[np.str_]:
-    """Return the names of stops from the engine's numbers of sides: 1 right, -1 left."""
-    return np.where(sides > 0, *SIDES)
+def stop_names(numbers: NDArray[Any]) -> NDArray[np.str_]:
+    """Return the names of an oscillator's stops from the engine's numbers of them."""
+    return np.where(numbers == 0, *SIDES)
 
 
 def by_stop(

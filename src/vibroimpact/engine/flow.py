@@ -278,7 +278,7 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
 
 @_function(_MOTION, types.void, P, P, P, P)
 def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.extremes`."""
+    """See `one_mass.extremes`."""
 
 
 @_function(_MOTION, types.void, P)
@@ -301,7 +301,7 @@ def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Ve
 
 @_function(_DISTURBED, types.void, P, P, P, P)
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.margin`."""
+    """See `one_mass.margin`."""
 
 
 @_function(_RECORDED, types.void, P, P, P, P, P, P)
@@ -314,12 +314,12 @@ def record(
     samples: Vector,
     events: Vector,
 ) -> None:
-    """See `observers.record`."""
+    """See `one_mass.record`."""
 
 
 @_function(_RECORDED, types.void, P, P, _N, _N)
 def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
-    """Write a state as one of the samples of `observers.record`."""
+    """Write a state as one of the samples of `one_mass.record`."""
 
 
 @_function(_DISTURBED, types.void, P, P)
@@ -355,7 +355,7 @@ def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
 
 @_function(_MEASURED, types.void, P, P, P, P)
 def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.demand`."""
+    """See `one_mass.demand`."""
 
 
 # Channels, over which other observers are written.

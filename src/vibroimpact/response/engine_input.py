@@ -11,11 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
-from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
+from vibroimpact.engine.state import FLIGHT, FRESH, MODE, ONE_MASS
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import (
     Assembly,
@@ -34,21 +32,21 @@ TOUCHING = 1e-12
 
 _COLUMNS = np.array(
     [
-        layout.U,
-        layout.V,
-        layout.RIGHT_BUMPER,
-        layout.LEFT_BUMPER,
-        layout.MODE,
-        layout.MODE,
-        layout.ISOLATOR,
+        ONE_MASS.displacement(),
+        ONE_MASS.velocity(),
+        *(ONE_MASS.deformation(stop) for stop in range(ONE_MASS.stops)),
+        MODE,
+        MODE,
+        ONE_MASS.memory(),
     ]
 )
 """Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode states the
 contact."""
-_TOUCHING = np.array(record.TOUCHING)
+CONTACTS = (0, 1, -1, 2)
+"""`State.contact` by the engine's mode: none, right, left, both."""
 _SIDES = {-1: "left", 1: "right"}
 _SIGNS = {"right": 1, "left": -1}
-_CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
+_IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
 
 
@@ -167,27 +165,28 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
             touches, deformation = _on_bumper(law, sign, state, reach, slack, said, sign * v)
-        bit = RIGHT if sign == 1 else LEFT
+        bit = 1 << i
         if touches:
             mode |= bit
         elif abs(reach - deformation) <= slack and _parts(stop, deformation, sign * v):
             parted |= bit
         deformations[i] = deformation
-    if mode == BOTH and not _overlap(oscillator):
+    if mode.bit_count() > 1 and not _overlap(oscillator):
         mode = _deeper(oscillator, u, v)
-    vector = np.zeros(layout.STATE)
-    vector[layout.MODE] = mode
+    vector = np.zeros(ONE_MASS.width)
+    vector[MODE] = mode
     # What touches begins to. A stop that the mass leaves is not met again by rounding.
-    vector[layout.FRESH] = parted if parted in (RIGHT, LEFT) else mode
-    vector[layout.U], vector[layout.V] = u, v
-    vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
-    vector[layout.ISOLATOR] = state.isolator
+    vector[FRESH] = parted if parted.bit_count() == 1 else mode
+    vector[ONE_MASS.displacement()], vector[ONE_MASS.velocity()] = u, v
+    for stop, deformation in enumerate(deformations):
+        vector[ONE_MASS.deformation(stop)] = deformation
+    vector[ONE_MASS.memory()] = state.isolator
     return vector
 
 
 def _claim(state: State) -> str:
     """Return the contact of a state, with which a message begins."""
-    return f"start.contact: {state.contact} ({_CONTACTS[state.contact or 0]})"
+    return f"start.contact: {state.contact} ({_IN_WORDS[state.contact or 0]})"
 
 
 def _overlap(oscillator: Oscillator) -> bool:
@@ -196,14 +195,14 @@ def _overlap(oscillator: Oscillator) -> bool:
 
 
 def _deeper(oscillator: Oscillator, u: float, v: float) -> int:
-    """Return the side that is pressed where both stops begin at one place.
+    """Return the mode in which the stop is pressed that is deeper where both begin at one place.
 
     Both are touched to within rounding there, and the engine has no motion that presses both.
     """
     assert oscillator.right is not None
     assert oscillator.left is not None
     right, left = u - oscillator.right.gap, -u - oscillator.left.gap
-    return RIGHT if (right, v) >= (left, -v) else LEFT
+    return 1 << (0 if (right, v) >= (left, -v) else 1)
 
 
 def _parts(stop: Stop, deformation: float, closing: float) -> bool:
@@ -327,7 +326,7 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
     np.maximum(right, 0.0, out=right)
     np.minimum(-left, 0.0, out=left)
     angle[...] = phase % (2.0 * math.pi)
-    contact[...] = _TOUCHING[contact.astype(np.int64)]
+    contact[...] = np.take(CONTACTS, contact.astype(np.int64))
     found += 0.0  # no negative zeros
     return found
 

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.stops import by_stop, stop_names
 from vibroimpact.engine.assembly import record as several
-from vibroimpact.engine.motion import LEFT, RIGHT
-from vibroimpact.engine.observers import record
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
+from vibroimpact.engine.one_mass import record
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.oscillator import Oscillator
@@ -21,11 +20,7 @@ _Array = NDArray[np.float64]
 
 
 def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
-    """The samples; what the isolator remembers, if it does.
-
-    Deformations are positive when compressed. The engine has the opposite sign on the left, which
-    is changed in place, because long motions are not kept twice.
-    """
+    """The samples; what the isolator remembers, if it does."""
     rows = {
         "displacement": record.DISPLACEMENT,
         "velocity": record.VELOCITY,
@@ -33,17 +28,11 @@ def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
         **({"isolator_memory": record.MEMORY} if oscillator.isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    np.negative(out[record.LEFT_FACE], out=out[record.LEFT_FACE])
-    out[record.LEFT_FACE] += 0.0  # no -0.0
-    faces = slice(record.RIGHT_FACE, record.LEFT_FACE + 1)
-    apart = slice(record.RIGHT_CLEARANCE, record.LEFT_CLEARANCE + 1)
-    touched = out[record.CONTACT]
-    both = touched == record.TOUCHING[RIGHT | LEFT]
-    touching = [both | (touched == record.TOUCHING[side]) for side in (RIGHT, LEFT)]
+    mode = out[record.TOUCHED].astype(np.int8)[:, np.newaxis]
     by_side = {
-        "deformation": out[faces].T,
-        "clearance": out[apart].T,
-        "touching": np.column_stack(touching),
+        "deformation": out[record.DEFORMATION : record.DEFORMATION + record.STOPS].T,
+        "clearance": out[record.CLEARANCE : record.CLEARANCE + record.STOPS].T,
+        "touching": mode >> np.arange(record.STOPS, dtype=np.int8) & 1 > 0,
     }
     return samples | {
         name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
@@ -102,10 +91,12 @@ def listed(parts: list[_Array], period: float, oscillator: Oscillator) -> dict[s
         return np.concatenate([part[:, at] for part in parts])
 
     time = column(record.E_CYCLE) * period + column(record.E_TIME)
-    deformation = np.column_stack([column(record.E_RIGHT), 0.0 - column(record.E_LEFT)])
+    deformation = np.column_stack(
+        [column(record.E_DEFORMATION + stop) + 0.0 for stop in range(record.STOPS)]
+    )
     return {
         "event_time": ("event", time),
-        "event_stop": ("event", stop_names(column(record.E_SIDE))),
+        "event_stop": ("event", stop_names(column(record.E_STOP))),
         "event_deformation": (("event", "stop"), by_stop(oscillator, deformation)),
         **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.engine.assembly.curved.layout import NEW
-from vibroimpact.engine.motion import mirror_image
-from vibroimpact.engine.observers import record
-from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
+from vibroimpact.engine.one_mass.table import mirror_image
+from vibroimpact.engine.state import FIRST, FRESH, MODE, ONE_MASS, Parts
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, Stop, equilibrium
 from vibroimpact.response.assembly_rig import assembly_partners, link_parts
 from vibroimpact.response.assembly_state import (
@@ -27,7 +26,13 @@ from vibroimpact.response.assembly_state import (
     component_names,
     state_components,
 )
-from vibroimpact.response.engine_input import as_state, components, engine_state, state_from
+from vibroimpact.response.engine_input import (
+    CONTACTS,
+    as_state,
+    components,
+    engine_state,
+    state_from,
+)
 
 _Array = NDArray[np.float64]
 
@@ -40,12 +45,19 @@ class SectionStates(NamedTuple):
     @property
     def masses(self) -> int:
         """Number of masses."""
-        return len(self.system.names) if isinstance(self.system, Assembly) else 1
+        return len(self.system.names) if isinstance(self.system, Assembly) else ONE_MASS.masses
 
     @property
     def stops(self) -> int:
         """Number of stops that the engine counts; an oscillator may lack some of its two."""
-        return len(self.system.stops) if isinstance(self.system, Assembly) else 2
+        return len(self.system.stops) if isinstance(self.system, Assembly) else ONE_MASS.stops
+
+    @property
+    def places(self) -> Parts:
+        """Where the parts stand: displacements, velocities, deformations, memories of links."""
+        if isinstance(self.system, Assembly):
+            return Parts(self.masses, self.stops, len(link_parts(self.system)))
+        return ONE_MASS
 
     @property
     def partners(self) -> list[int]:
@@ -56,21 +68,19 @@ class SectionStates(NamedTuple):
 
     @property
     def parts(self) -> int:
-        """Number of parts: displacements, velocities, deformations, memories of isolators."""
-        if isinstance(self.system, Assembly):
-            return 2 * self.masses + self.stops + len(link_parts(self.system))
-        return 2 * self.masses + self.stops + 1
+        """Number of parts."""
+        return self.places.total
 
     @property
     def width(self) -> int:
         """Length of a vector, without the clock."""
-        return FIRST + self.parts + BEHIND - 2
+        return self.places.width
 
     @property
     def _signs(self) -> _Array:
         signs = np.ones(self.parts)
         if isinstance(self.system, Oscillator):
-            signs[3] = -1.0
+            signs[self.places.of_point.deformation(1)] = -1.0
         return signs
 
     @property
@@ -87,7 +97,7 @@ class SectionStates(NamedTuple):
             return self.point(vector), float(vector[MODE])
         right, left = (state.deformation.get(side, 0.0) for side in SIDES)
         parts = np.array([state.displacement, state.velocity, right, -left, state.isolator])
-        return parts, float(record.TOUCHING.index(state.contact or 0))
+        return parts, float(CONTACTS.index(state.contact or 0))
 
     def point(self, vector: _Array) -> _Array:
         """Return the parts of a vector."""
@@ -112,21 +122,22 @@ class SectionStates(NamedTuple):
         partners = self.partners
         if -1 in partners:
             return None
-        image, n, mode = np.zeros(self.width), self.masses, int(vector[MODE])
-        image[MODE] = sum(1 << partners[f] for f in range(self.stops) if mode >> f & 1)
-        image[FIRST : FIRST + 2 * n] = -vector[FIRST : FIRST + 2 * n]
-        image[FIRST + 2 * n :][: self.stops] = vector[FIRST + 2 * n :][partners]
-        memories = slice(FIRST + 2 * n + self.stops, FIRST + self.parts)
-        image[memories] = -vector[memories]
+        places, mode = self.places, int(vector[MODE])
+        image, moving = np.zeros(places.width), slice(FIRST, places.deformation(0))
+        deformations = slice(places.deformation(0), places.memory())
+        memories = slice(places.memory(), places.age)
+        image[MODE] = sum(1 << partners[f] for f in range(places.stops) if mode >> f & 1)
+        image[moving], image[memories] = -vector[moving], -vector[memories]
+        image[deformations] = vector[deformations][partners]
         if link_parts(self.system):
             image[FRESH] = NEW
         return image
 
     def velocities(self) -> NDArray[np.bool_]:
         """Which parts are velocities."""
-        n = self.masses
-        places = np.arange(self.parts)
-        found: NDArray[np.bool_] = (places >= n) & (places < 2 * n)
+        places = self.places.of_point
+        found = np.zeros(places.total, dtype=bool)
+        found[places.velocity() : places.deformation(0)] = True
         return found
 
     @property

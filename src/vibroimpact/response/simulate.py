@@ -16,8 +16,8 @@ from vibroimpact.datasets.description import (
     system_parameters,
 )
 from vibroimpact.engine.assembly.record import E_ORDERED
-from vibroimpact.engine.motion import U
-from vibroimpact.engine.observers import record as observed
+from vibroimpact.engine.one_mass import record as observed
+from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import (
@@ -216,7 +216,7 @@ def _history(
     finished = run.follow(progress)
     told = run.status
     if isinstance(system, Oscillator):
-        told = ended(system, run.status, run.out[observed.DISPLACEMENT], vector[U])
+        told = ended(system, run.status, run.out[observed.DISPLACEMENT], vector[FIRST])
     if run.status is not Status.DONE:
         run.cut(finished)
         ends = finished * (record.step if record else 1.0)

@@ -11,7 +11,7 @@ from vibroimpact.engine import batch, record_forcing
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly import record as several
 from vibroimpact.engine.flow_tables import plan_of
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Record, Repeated
 from vibroimpact.model.argument_types import check_samples

@@ -336,9 +336,9 @@ def _points(system: System, points: _Array, section: Kind, dims: tuple[str, ...]
     """Return the points of a section as variables; of those that are padded nothing is known."""
     if section == "stroboscopic":
         return section_variables(system, points, dims)
-    side, phase, velocity = np.moveaxis(points, -1, 0)
+    stop, phase, velocity = np.moveaxis(points, -1, 0)
     return {
-        "contact_stop": (dims, np.where(np.isnan(side), "", stop_names(side))),
+        "contact_stop": (dims, np.where(np.isnan(stop), "", stop_names(stop))),
         "contact_start_phase": (dims, phase),
         "contact_start_velocity": (dims, velocity),
     }
