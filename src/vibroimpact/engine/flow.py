@@ -88,7 +88,7 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     """An intrinsic that calls the function at a place of the table of its first argument."""
 
     def typed(*given: Any) -> tuple[Any, Callable[..., Any]]:
-        # Arrays stand for their memory, and a plan that tells its flow for a plan.
+        # Arrays stand for their memory, and a plan whose type names its flow for a plan.
         taken = [
             one if isinstance(one, types.Array | types.CPointer) else kind
             for one, kind in zip(given, declared.args, strict=True)

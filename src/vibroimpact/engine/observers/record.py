@@ -198,7 +198,7 @@ def sample(
 
 @kernel
 def recorded_kind(event: int, after: Motion) -> float:
-    """What the event of a stop is in the column E_KIND, which tells rest from an impact."""
+    """Return what the column E_KIND contains for an event, which tells rest from an impact."""
     if not begins_contact(event):
         return DETACHMENT
     return CONTACT_BEGINS if after.mode >> stop_of(event) & 1 else IMPACT
