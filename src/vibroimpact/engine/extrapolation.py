@@ -80,7 +80,7 @@ def guess(held: Vector, units: Vector, parts: int) -> tuple[float, float, bool]:
     """
     one, two, goal = 2 * parts, 4 * parts, _HELD * 2 * parts
     a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
-    # Of the secants of x, by which those of P are told: P's eigenvalues.
+    # Of the secants of x, in which those of P are expressed: eigenvalues of P.
     x11, x12, x22, p11, p12, p21, p22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(parts):
         w = units[i] * units[i]
