@@ -105,7 +105,7 @@ class Session:
             history = self._next(message)
             told = shown_as(history)
         except (InputError, ArithmeticError) as error:
-            # Numbers whose products overflow are a mistake, which is reported as such.
+            # Numbers whose products are not finite are reported as a mistake.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
             path = message.get("path") if isinstance(message.get("path"), str) else None
             refused = {"refused": words, "path": path, "n": number}
