@@ -12,7 +12,7 @@ of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, m
 reference, dims and attributes follow from the entry. What Python computes from one motion is a
 module of `response/`, which follows the contacts of the motion again (example: `totals.py`); the
 first velocity of a contact is the closing speed of a law with a coefficient of restitution.
-CONTRIBUTING states what the engine needs.
+`engine.observers` states what the engine needs.
 
 The command ``motion`` prints each number of `_measured` (by stop, if it has this dim); its rows are
 in `_motion` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of

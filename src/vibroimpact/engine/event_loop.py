@@ -20,7 +20,7 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
     """Make the loop over a flow's function `advance`, with an observer or None.
 
     What follows `max_events` is passed on to the observer. `load` and `put` copy a state, `finite`
-    tells whether it is within the range of numbers, as those of `state` do for every flow.
+    returns whether it is within the range of numbers, as those of `state` do for every flow.
     """
 
     def cycle(

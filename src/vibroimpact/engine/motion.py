@@ -55,7 +55,7 @@ class Motion(NamedTuple):
     """The state of a rig and of its forcing.
 
     `fresh` is the bit of the stop at which something has just happened (0 if nothing): the mode
-    tells whether it was touched or left. `faces` are the stops' deformations; in contact the
+    shows whether it was touched or left. `faces` are the stops' deformations; in contact the
     pressed bumper's is the primary quantity, the displacement `u` follows from it. `z` is what
     the isolator remembers (m), `age` how long the mode has lasted (s).
     """

@@ -1,4 +1,4 @@
-"""A state between calls: a vector in memory, of a width that its flow tells (see `flow`)."""
+"""A state between calls: a vector in memory, whose width its flow determines (see `flow`)."""
 
 from __future__ import annotations
 

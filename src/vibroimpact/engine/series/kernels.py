@@ -118,7 +118,7 @@ def rooted(rig: Any, stop: int, laws: tuple[Any, ...]) -> Rooted | None:
 
 
 def laws_code(rig: Any) -> int:
-    """Tell which kernels a rig needs: a bit each for what they may have, and the memory's power."""
+    """Return which kernels a rig needs: a bit for each law, and the power of the memory."""
     code = 0
     code += 1 if rig[par.CUBIC] != 0.0 else 0
     code += 2 if rig[par.QUINTIC] != 0.0 else 0

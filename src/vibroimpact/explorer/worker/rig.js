@@ -239,7 +239,7 @@ export function moved(state, path, value, facts) {
   return placed(changes);
 }
 
-// The amplitude, of the quantity that its unit tells.
+// The amplitude, of the quantity that its unit implies.
 function sized(state, value, facts) {
   let first = null;
   for (const of of [state.of, ...Object.keys(facts.amplitudes)]) {
