@@ -15,6 +15,8 @@ computed from the linear equations of the stops that are pressed.
 
 A free motion, which no spring opposes, stays near u = 0, by a term ½ ε |u − u_k|² about the last
 iterate u_k. This term vanishes where the iterates converge.
+
+Masses that no force reaches move exactly as the mass or the base on which they hang.
 """
 
 from __future__ import annotations
@@ -223,12 +225,62 @@ def _minimum(assembly: Assembly) -> Vector:
         reached = _residual(problem, u)
         if reached <= _EXACT * max(first, _size(problem, u)) + _rounding(problem, u):
             _check_reach(problem, u)
-            return u
+            return _without_rounding(assembly, u)
     _check_reach(problem, u)
     raise InputError(
         f"forces: no equilibrium was found in {_MOST_STEPS} steps (residual {reached:.3g} N); "
         "change the constant forces or the preloads, or use links without softening"
     )
+
+
+def _without_rounding(assembly: Assembly, u: Vector) -> Vector:
+    """Return u with equal displacements where nothing deforms the links between masses.
+
+    The rounding of a step depends on the order of the masses. It would press or open a stop without
+    a gap between such masses, and a damping by restitution is unbounded where the speed at contact
+    is nearly 0, and not where it is 0.
+    """
+    base = len(u)
+    places = {name: i for i, name in enumerate(assembly.names)}
+    beside: list[list[int]] = [[] for _ in range(base + 1)]
+    for link in assembly.links.values():
+        if link.isolator.linear_and_bounded != (0.0, 0.0):
+            left, right = (places.get(end, base) for end in (link.left, link.right))
+            beside[left].append(right)
+            beside[right].append(left)
+    stops = [
+        (places.get(stop.left, base), places.get(stop.right, base), stop.stop.gap)
+        for stop in assembly.stops.values()
+    ]
+    forced = {int(i) for i in np.flatnonzero(assembly.constant_force)}
+
+    def linked(starts: set[int], barred: set[int]) -> set[int]:
+        reached, todo = set(starts), list(starts)
+        while todo:
+            new = [i for i in beside[todo.pop()] if i not in reached and i not in barred]
+            reached.update(new)
+            todo += new
+        return reached
+
+    at = np.append(u, 0.0)
+    for host in (base, *range(base)):
+        moved = linked((forced | {base}) - {host}, {host})
+        while True:
+            others = set(range(base)) if host == base else linked({host}, moved)
+            alike = others - moved - {host}
+            aligned = at.copy()
+            aligned[list(alike)] = at[host]
+            pressed = {
+                end
+                for left, right, gap in stops
+                if aligned[left] - aligned[right] - gap > 0.0
+                for end in alike.intersection((left, right))
+            }
+            if not pressed:
+                break
+            moved = linked(moved | pressed, {host})
+        at = aligned
+    return at[:base]
 
 
 def _share(problem: _Problem, u: Vector, way: Vector) -> float:
