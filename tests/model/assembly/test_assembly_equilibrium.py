@@ -156,6 +156,34 @@ def test_masses_that_no_force_reaches_move_exactly_as_their_host():
         assert "g" not in u
 
 
+def test_bodies_that_press_a_rigid_stop_touch_exactly():
+    """With full restitution, a clearance of 1e-20 m would be the height of endless impacts."""
+    rng = np.random.default_rng(6)
+    for _ in range(20):
+        k = [float(one) for one in 10.0 ** rng.uniform(-0.5, 1.5, 5)]
+        links = {
+            "a": vi.Link(GROUND, "a", vi.Isolator(k[0], 0.1)),
+            "b": vi.Link("a", "b", vi.Isolator(k[1], 0.1)),
+            "c": vi.Link("b", "c", vi.Isolator(k[2], 0.1)),
+            "d": vi.Link(GROUND, "d", vi.Isolator(k[3], 0.1)),
+        }
+        gap = float(rng.uniform(0.001, 0.01))
+        stops = {
+            "wall": vi.Link(GROUND, "c", vi.RigidStop(1.0, 0.0)),
+            "far": vi.Link("a", "d", vi.RigidStop(1.0, gap)),
+            "beside": vi.Link("d", "e", vi.RigidStop(1.0, 0.0)),
+            "end": vi.Link("e", GROUND, vi.RigidStop(1.0, gap)),
+        }
+        links["e"] = vi.Link(GROUND, "e", vi.Isolator(k[4], 0.1))
+        names = [str(one) for one in rng.permutation(list("abcde"))]
+        masses = dict.fromkeys(names, 1.0)
+        pushed = {"a": -1.0, "d": 900.0}
+        u = equilibrium(vi.Assembly(masses, links, stops, pushed)).displacement
+        assert u["a"] < u["b"] < 0.0
+        assert "c" not in u
+        assert u["d"] == u["e"] == gap
+
+
 def test_two_friction_links_stick_and_slide():
     links = {
         "lower": vi.Link(GROUND, "p", vi.FrictionIsolator(100.0, 0.0, 3.0)),

@@ -16,7 +16,9 @@ computed from the linear equations of the stops that are pressed.
 A free motion, which no spring opposes, stays near u = 0, by a term ½ ε |u − u_k|² about the last
 iterate u_k. This term vanishes where the iterates converge.
 
-Masses that no force reaches move exactly as the mass or the base on which they hang.
+Masses that no force reaches move exactly as the mass or the base on which they hang, and bodies
+touch exactly at a rigid stop that they press: the rounding of a step depends on the order of the
+masses, and would decide which stops are closed.
 """
 
 from __future__ import annotations
@@ -225,7 +227,8 @@ def _minimum(assembly: Assembly) -> Vector:
         reached = _residual(problem, u)
         if reached <= _EXACT * max(first, _size(problem, u)) + _rounding(problem, u):
             _check_reach(problem, u)
-            return _without_rounding(assembly, u)
+            near = _near(problem, u)
+            return _alike(assembly, _touching(assembly, _alike(assembly, u), near))
     _check_reach(problem, u)
     raise InputError(
         f"forces: no equilibrium was found in {_MOST_STEPS} steps (residual {reached:.3g} N); "
@@ -233,23 +236,44 @@ def _minimum(assembly: Assembly) -> Vector:
     )
 
 
-def _without_rounding(assembly: Assembly, u: Vector) -> Vector:
-    """Return u with equal displacements where nothing deforms the links between masses.
-
-    The rounding of a step depends on the order of the masses. It would press or open a stop without
-    a gap between such masses, and a damping by restitution is unbounded where the speed at contact
-    is nearly 0, and not where it is 0.
-    """
+def _touching(assembly: Assembly, u: Vector, near: float) -> Vector:
+    """Return u with a clearance of 0 at the rigid stops whose clearance is below a length."""
     base = len(u)
-    places = {name: i for i, name in enumerate(assembly.names)}
+    stops = [one for one in assembly.stops.values() if one.stop.rigid]
+    left = [_column(assembly, one.left) for one in stops]
+    right = [_column(assembly, one.right) for one in stops]
+    at, gaps = np.append(u, 0.0), [one.stop.gap for one in stops]
+    todo = [f for f in range(len(stops)) if abs(at[left[f]] - at[right[f]] - gaps[f]) <= near]
+    exact = {base}
+    while todo:
+        # A body that touches another one whose displacement is exact follows it.
+        f = next((f for f in todo if (left[f] in exact) != (right[f] in exact)), todo[0])
+        todo.remove(f)
+        if left[f] in exact and right[f] not in exact:
+            at[right[f]] = at[left[f]] - gaps[f]
+        elif left[f] not in exact:
+            at[left[f]] = at[right[f]] + gaps[f]
+        exact |= {left[f], right[f]}
+    return at[:base]
+
+
+def _column(assembly: Assembly, end: str) -> int:
+    """Return the number of a mass, or for the ground the count of the masses."""
+    names = assembly.names
+    return names.index(end) if end in names else len(names)
+
+
+def _alike(assembly: Assembly, u: Vector) -> Vector:
+    """Return u with equal displacements where nothing deforms the links between masses."""
+    base = len(u)
     beside: list[list[int]] = [[] for _ in range(base + 1)]
     for link in assembly.links.values():
         if link.isolator.linear_and_bounded != (0.0, 0.0):
-            left, right = (places.get(end, base) for end in (link.left, link.right))
+            left, right = _column(assembly, link.left), _column(assembly, link.right)
             beside[left].append(right)
             beside[right].append(left)
     stops = [
-        (places.get(stop.left, base), places.get(stop.right, base), stop.stop.gap)
+        (_column(assembly, stop.left), _column(assembly, stop.right), stop.stop.gap)
         for stop in assembly.stops.values()
     ]
     forced = {int(i) for i in np.flatnonzero(assembly.constant_force)}
@@ -402,10 +426,7 @@ def _stop_forces(problem: _Problem, u: Vector) -> tuple[Vector, Vector, Vector]:
     friction at rest any within ±F_c.
     """
     depth = problem.rows @ u - problem.gaps
-    # Gaps may be far below the displacement that the forces would cause without stops.
-    free = float(np.abs(problem.force).max(initial=0.0)) / _stiffness(problem)
-    lengths = (np.abs(u).max(initial=0.0), np.abs(problem.gaps).max(initial=0.0), free)
-    near = 1e-12 * float(sum(lengths))
+    near = _near(problem, u)
     least, most = problem.low.copy(), problem.high.copy()
     bumper = problem.compliance > 0.0
     pressed = np.maximum(depth, 0.0) / np.where(bumper, problem.compliance, 1.0)
@@ -415,6 +436,14 @@ def _stop_forces(problem: _Problem, u: Vector) -> tuple[Vector, Vector, Vector]:
     least[slid] = problem.high[slid]
     inside = ~bumper & (depth > near) & ~np.isfinite(problem.high)
     return least, most, np.where(inside, depth, 0.0)
+
+
+def _near(problem: _Problem, u: Vector) -> float:
+    """Return the length (m) below which a depth is rounding."""
+    # Gaps may be far below the displacement that the forces would cause without stops.
+    free = float(np.abs(problem.force).max(initial=0.0)) / _stiffness(problem)
+    lengths = (np.abs(u).max(initial=0.0), np.abs(problem.gaps).max(initial=0.0), free)
+    return 1e-12 * float(sum(lengths))
 
 
 def _residual(problem: _Problem, u: Vector) -> float:
