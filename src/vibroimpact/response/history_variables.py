@@ -15,8 +15,14 @@ from vibroimpact.engine.one_mass import record
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.unknown_keys import listed as words
 
 _Array = NDArray[np.float64]
+
+_FEW_EVENTS = 100
+"""Below which integration steps, not events, were too many."""
+_BUSY = 0.25
+"""Share of the events at the busiest stop that another one needs to be named."""
 
 
 def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
@@ -183,6 +189,37 @@ def _events(rows: _Array, assembly: Assembly) -> Iterator[_Event]:
         if rests:
             # The impact after which the bodies rest is followed by the rest.
             yield _Event(section, time, stop, CONTACT_BEGINS, u, behind)
+
+
+def busiest_by_mass(rows: _Array, section: int, assembly: Assembly) -> str:
+    """Describe which parts cause too many events or steps in a section; may be empty."""
+    own = rows[rows[:, several.E_CYCLE] == section]
+    counts = np.bincount(own[:, several.E_STOP].astype(np.int64), minlength=len(assembly.stops))
+    if len(own) < _FEW_EVENTS:
+        blunt = [
+            f"links.{name}.damping_exponent = {link.isolator.damping_exponent:g}"
+            for name, link in assembly.links.items()
+            if link.isolator.damping_exponent < 1.0
+        ]
+        return f"with {len(own)} events, check {words(blunt)}" if blunt else ""
+    names = [
+        name
+        for name, count in zip(assembly.stops, counts, strict=True)
+        if count >= _BUSY * counts.max()
+    ]
+    lossless = [
+        f"stops.{name}.restitution = 1"
+        for name in names
+        if getattr(assembly.stops[name].law, "restitution", None) == 1.0
+        and assembly.stops[name].stop.rigid
+    ]
+    found = f"most of these {len(own)} events are at {words(names)}"
+    if lossless:
+        found += (
+            f"; with {words(lossless)}, bodies that are pushed together bounce without end: "
+            "use a smaller value"
+        )
+    return found
 
 
 def doubts_by_mass(rows: _Array, undecided: bool, section: str) -> list[str]:

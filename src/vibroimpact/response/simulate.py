@@ -45,6 +45,7 @@ from vibroimpact.response.assembly_rows import names_of_parts
 from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.history_variables import (
+    busiest_by_mass,
     doubts_by_mass,
     listed,
     listed_by_mass,
@@ -221,7 +222,11 @@ def _history(
         run.cut(finished)
         ends = finished * (record.step if record else 1.0)
         where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
-        warn_of_result(f"simulate stopped {where}: {told.advice}")
+        cause = ""
+        if isinstance(system, Assembly) and run.status is Status.TOO_MANY_EVENTS:
+            cause = busiest_by_mass(np.concatenate(run.events), finished, system)
+        advice = f"{told.advice}; here, {cause}" if cause else told.advice
+        warn_of_result(f"simulate stopped {where}: {advice}")
     elif told is not run.status:
         warn_of_result(f"simulate: {told.advice}")
     reached = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)
