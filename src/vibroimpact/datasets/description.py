@@ -23,13 +23,11 @@ COMPONENTS = [
     "deformation.right",
     "deformation.left",
     "phase",
-    "contact",
+    "touching.right",
+    "touching.left",
     "isolator",
 ]
-"""Components of the state of an oscillator in a dataset.
-
-Of both sides, with or without stops; ``deformation.left`` has the sign of the engine, negative when
-compressed, so that derivatives of states are those of the equations."""
+"""Components of the state of an oscillator in a dataset, of both sides, with or without stops."""
 
 
 def describe(

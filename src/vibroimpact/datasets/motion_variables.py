@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from vibroimpact.datasets.variable import Variable, integer, text, truth
 
+STATE_UNITS = "components in m, m/s, m, rad and 1"
+"""Units of the components of a state: of displacement and memory, velocity, deformation, ..."""
+
 MOTIONS: dict[str, Variable] = {
     # simulation
     "displacement": Variable("m", "relative displacement", part="mass"),
@@ -24,7 +27,7 @@ MOTIONS: dict[str, Variable] = {
         "m", "memory of the isolator", "the internal state z of its law; see State.isolator"
     ),
     "event_isolator_memory": Variable("m", "memory of the isolator at the event"),
-    "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
+    "final_state": Variable("1", "state at the end", STATE_UNITS),
     "event_time": Variable("s", "time of the event"),
     "event_cycle": integer("forcing cycle of the event, counted from 0"),
     "event_cycle_time": Variable("s", "time of the event since the start of its cycle"),
@@ -139,7 +142,8 @@ MOTIONS: dict[str, Variable] = {
     "monodromy": Variable(
         "1",
         "derivative of the state after one period with respect to the initial state",
-        "of u, u', u_R, u_L, in SI units",
+        "of u, u', u_right, u_left (positive when compressed) and the isolator's memory, if it has "
+        "one; in SI units",
     ),
     "residual": Variable("1", "error of the periodicity divided by the size of the motion"),
     "bifurcation_kind": text("kind of bifurcation"),
@@ -166,9 +170,7 @@ MOTIONS: dict[str, Variable] = {
     "cusp_second": Variable("1", "second parameter at the cusp", "in the parameter's units"),
     "bifurcation_multiplier_real": Variable("1", "real part of the Floquet multipliers"),
     "bifurcation_multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
-    "bifurcation_section": Variable(
-        "1", "state at the stroboscopic section", "components in m, m/s, m, m, rad and 1"
-    ),
+    "bifurcation_section": Variable("1", "state at the stroboscopic section", STATE_UNITS),
     "evidence": text("reason for the classification of the motion"),
     "starts": text("names of the initial states that led to the motion"),
     "mirrored_starts": text("names of the initial states that led to its mirror image"),

@@ -25,7 +25,7 @@ from vibroimpact.datasets.assembly_variables import ASSEMBLIES
 from vibroimpact.datasets.batch_variables import MANY_MOTIONS
 from vibroimpact.datasets.design_variables import DESIGN
 from vibroimpact.datasets.fit_variables import FITS
-from vibroimpact.datasets.motion_variables import MOTIONS
+from vibroimpact.datasets.motion_variables import MOTIONS, STATE_UNITS
 from vibroimpact.datasets.stop_variables import OF_STOPS
 from vibroimpact.datasets.variable import Variable, integer, text
 from vibroimpact.model.parameters import PARAMETERS
@@ -53,7 +53,8 @@ VARIABLES: dict[str, Variable] = {
     ),
     "component": text(
         "component of the state",
-        "deformation.left of an oscillator is negative when compressed, unlike the variable",
+        "deformation.STOP is positive when compressed; touching.STOP is 1 if the bodies of the "
+        "stop touch, and 0 otherwise; isolator and memory.LINK are the memories of the laws",
     ),
     # sweep
     "displacement_excursion": Variable(
@@ -124,7 +125,7 @@ VARIABLES: dict[str, Variable] = {
     "section": Variable(
         "1",
         "state at the stroboscopic section at the end of each frequency step",
-        "components in m, m/s, m, m, rad and 1",
+        STATE_UNITS,
     ),
     **OF_STOPS,
     **ASSEMBLIES,
