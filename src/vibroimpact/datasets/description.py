@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from typing import Any
 
 import xarray as xr
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
-from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import NAMED_DIMS, VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
+CHECKS_DIMS = False
+"""Whether `describe` checks dims, which tests do: users get what was computed."""
 COMPONENTS = [
     "displacement",
     "velocity",
@@ -49,6 +51,8 @@ def describe(
     ------
     KeyError
         If a variable is not in the registry.
+    ValueError
+        In tests: if it has other dims than the registry states.
     """
     known = {one.name: Variable(one.units, one.long_name) for one in varied}
     if parameters is None and "parameters" in dataset.attrs:
@@ -57,6 +61,8 @@ def describe(
         still = parameters is not None and _stands(parameters)
     for name in dataset.variables:
         variable = VARIABLES.get(str(name)) or known[str(name)]
+        if CHECKS_DIMS and name not in known:
+            _check_dims(str(name), dataset.variables[name].dims)
         long_name = variable.long_name
         if still:  # what is relative to a base at rest is absolute
             long_name = long_name.replace("relative ", "absolute ")
@@ -81,6 +87,19 @@ def describe(
     if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
         remove_units(dataset)
     return dataset
+
+
+def _check_dims(name: str, dims: tuple[Hashable, ...]) -> None:
+    """Check that a variable may have these dims.
+
+    Raises
+    ------
+    ValueError
+        If it may not.
+    """
+    words = [str(one) for one in dims]
+    if words != [name] and not VARIABLES[name].has_dims(words, NAMED_DIMS):
+        raise ValueError(f"{name}: its dims {words} are none of {VARIABLES[name].dims}")
 
 
 def base_at_rest(data: xr.Dataset) -> bool:
