@@ -214,7 +214,7 @@ BAD = {
     "chain damping": (lambda: vi.chain([1], [1], -1), r"^damping_ratio: -1 is less than 0"),
     "chain rule": (
         lambda: vi.chain([1], [1], damping="x"),
-        r"^damping: 'x'; use 'modal' or 'rayleigh'",
+        r"^damping: 'x' is unknown; use modal or rayleigh",
     ),
     "chain modes": (
         lambda: vi.chain([1], [1], damping="rayleigh", rayleigh_modes=(1, 2)),
