@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import Any
 
 import xarray as xr
@@ -80,13 +80,22 @@ def describe(
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
-    if told := "\n".join(notes):
+    if told := "\n".join(dict.fromkeys([*_assumptions(dataset, parameters), *notes])):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
     # The rigs of a fit are an attribute of their own.
     if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
         remove_units(dataset)
     return dataset
+
+
+def _assumptions(dataset: xr.Dataset, parameters: dict[str, Any] | None) -> Iterator[str]:
+    """Yield what was assumed to read the rigs of a dataset."""
+    if parameters is None:
+        text = dataset.attrs.get("parameters", "")
+        parameters = json.loads(text) if '"assumptions"' in text else {}
+    for one in parameters.get("rigs", [parameters]):
+        yield from one.get("assumptions", ())
 
 
 def _check_dims(name: str, dims: tuple[Hashable, ...]) -> None:
@@ -197,8 +206,16 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
 
 
 def system_parameters(system: System) -> dict[str, Any]:
-    """Return an oscillator or an assembly by its kind, for the attributes of a dataset."""
-    return {"assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()}
+    """Return an oscillator or an assembly by its kind, for the attributes of a dataset.
+
+    The entry ``assumptions`` is what was assumed to read it, and left out if nothing was.
+    """
+    found: dict[str, Any] = {
+        "assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()
+    }
+    if isinstance(system, Assembly) and system.assumptions:
+        found["assumptions"] = list(system.assumptions)
+    return found
 
 
 def system_from(parameters: Mapping[str, Any]) -> System:

@@ -123,14 +123,21 @@ DESIGN: dict[str, Variable] = {
     ),
     **along(
         SPECTRUM,
-        spectral_displacement=Variable("m", "largest relative displacement, from rest"),
-        spectral_velocity=Variable("m s-1", "largest relative velocity, from rest"),
-        spectral_acceleration=Variable("m s-2", "largest absolute acceleration, from rest"),
+        spectral_displacement=Variable(
+            "m", "largest relative displacement, from rest", part="mass"
+        ),
+        spectral_velocity=Variable("m s-1", "largest relative velocity, from rest", part="mass"),
+        spectral_acceleration=Variable(
+            "m s-2", "largest absolute acceleration, from rest", part="mass"
+        ),
         pseudo_velocity=Variable(
-            "m s-1", "pseudo-velocity", "angular frequency times displacement"
+            "m s-1", "pseudo-velocity", "angular frequency times displacement", part="mass"
         ),
         pseudo_acceleration=Variable(
-            "m s-2", "pseudo-acceleration", "angular frequency squared times displacement"
+            "m s-2",
+            "pseudo-acceleration",
+            "angular frequency squared times displacement",
+            part="mass",
         ),
     ),
 }
