@@ -15,8 +15,8 @@ first velocity of a contact is the closing speed of a law with a coefficient of 
 CONTRIBUTING states what the engine needs.
 
 The command ``motion`` prints each number of `_measured` (by stop, if it has this dim); its rows are
-in `_motion` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
-`facts/assembly.py`. An entry of `_WORDS` of `facts/largest.py` prints the largest value of sweeps.
+in `_ROWS` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
+`facts/assembly.py`. An entry of `_LINES` of `facts/largest.py` prints the largest value of sweeps.
 """
 
 from __future__ import annotations
