@@ -141,6 +141,7 @@ def _unsealed(content: bytes) -> tuple[bytes, bool]:
     return content, True
 
 
+@public
 def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     """Read a dataset from a file that `save` has written.
 

@@ -9,13 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.variable import PARTS
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.model import Oscillator
 
 SIDES = ("right", "left")
 """Names of the stops of an oscillator, in the order of the dim ``stop``."""
-PARTS = ("stop", "mass", "link")
-"""Dims of the parts of a rig."""
 _SUMS = ("impacts", "impact_count", "impulse")
 """Variables whose value for all stops is their sum; for others it is the largest."""
 

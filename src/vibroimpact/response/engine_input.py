@@ -36,18 +36,20 @@ _COLUMNS = np.array(
         ONE_MASS.velocity(),
         *(ONE_MASS.deformation(stop) for stop in range(ONE_MASS.stops)),
         MODE,
-        MODE,
+        *(MODE for _ in range(ONE_MASS.stops)),
         ONE_MASS.memory(),
     ]
 )
 """Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode states the
-contact."""
+contacts."""
 CONTACTS = (0, 1, -1, 2)
 """`State.contact` by the engine's mode: none, right, left, both."""
 _SIDES = {-1: "left", 1: "right"}
 _SIGNS = {"right": 1, "left": -1}
 _IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
+_TOUCHED = {(False, False): 0, (True, False): 1, (False, True): -1, (True, True): 2}
+"""The same by whether the right and the left stop are touched."""
 
 
 def engine_rig(rig: Rig) -> NDArray[np.float64]:
@@ -321,12 +323,11 @@ def _on_bumper(
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
     found: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
-    right, left, angle, contact = (found[..., i] for i in range(2, 6))
+    deformations, angle, touching = found[..., 2:4], found[..., 4], found[..., 5:7]
     # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
-    np.maximum(right, 0.0, out=right)
-    np.minimum(-left, 0.0, out=left)
+    np.maximum(deformations, 0.0, out=deformations)
     angle[...] = phase % (2.0 * math.pi)
-    contact[...] = np.take(CONTACTS, contact.astype(np.int64))
+    touching[...] = touching.astype(np.int64) >> np.arange(ONE_MASS.stops) & 1
     found += 0.0  # no negative zeros
     return found
 
@@ -344,10 +345,10 @@ def state_of(values: Sequence[float]) -> State:
 def _state_of(names: Sequence[str], values: Sequence[float]) -> State:
     parts: dict[str, Any] = dict(zip(names, values, strict=True))
     deformation = {
-        side: sign * parts.pop(name) + 0.0
-        for side, sign in _SIGNS.items()
-        if (name := f"deformation.{side}") in parts
+        side: parts.pop(name) for side in _SIGNS if (name := f"deformation.{side}") in parts
     }
-    if "contact" in parts:
-        parts["contact"] = int(parts["contact"])
+    touching = [parts.pop(name) for side in _SIGNS if (name := f"touching.{side}") in parts]
+    if len(touching) == len(_SIGNS):  # else the contact is deduced
+        right, left = touching
+        parts["contact"] = _TOUCHED[bool(right), bool(left)]
     return State(**parts, deformation=deformation)

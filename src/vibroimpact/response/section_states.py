@@ -1,7 +1,7 @@
 """How the states of a system stand in the engine's vectors, and in points of a section.
 
 A vector is the mode, what has just happened, the parts of the state, and the age of the mode; a
-point has the parts alone, with the signs of the components in datasets.
+point has the parts alone, of an oscillator with the deformation of the left stop negative.
 """
 
 from __future__ import annotations
@@ -77,7 +77,8 @@ class SectionStates(NamedTuple):
         return self.places.width
 
     @property
-    def _signs(self) -> _Array:
+    def signs(self) -> _Array:
+        """Signs of the parts of a point: its left deformation is negative when compressed."""
         signs = np.ones(self.parts)
         if isinstance(self.system, Oscillator):
             signs[self.places.of_point.deformation(1)] = -1.0
@@ -101,7 +102,7 @@ class SectionStates(NamedTuple):
 
     def point(self, vector: _Array) -> _Array:
         """Return the parts of a vector."""
-        found: _Array = vector[FIRST : FIRST + self.parts] * self._signs
+        found: _Array = vector[FIRST : FIRST + self.parts] * self.signs
         return found
 
     def vector(self, parts: _Array, mode: float) -> _Array:
@@ -112,7 +113,7 @@ class SectionStates(NamedTuple):
             vector[FRESH] = mode
         elif link_parts(self.system):
             vector[FRESH] = NEW
-        vector[FIRST : FIRST + self.parts] = parts * self._signs
+        vector[FIRST : FIRST + self.parts] = parts * self.signs
         return vector
 
     def mirror_image(self, vector: _Array) -> _Array | None:

@@ -259,7 +259,7 @@ class Assembly(Model):
                 for end in ("left", "right"):
                     check_body(getattr(found[name], end), names, f"{where}.{end}")
             read[part] = FrozenMapping(found)
-        carried.warn()
+        carried.warn(read["links"])
         return read
 
     @model_validator(mode="after")
@@ -290,6 +290,11 @@ class Assembly(Model):
     def names(self) -> tuple[str, ...]:
         """Names of the masses, or of the degrees of freedom, in the order of results."""
         return tuple(self.masses) if self.matrices is None else self.matrices.names
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What was assumed to read the links, one line each, which is in the notes of results."""
+        return tuple(link.assumption for link in self.links.values() if link.assumption)
 
     @property
     def mass_matrix(self) -> NDArray[np.float64]:
