@@ -194,6 +194,7 @@ print(json.dumps(made))
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """A copy of the package with the law, as plain Python: nothing is compiled."""
+    pytest.importorskip("numba")
     folder = tmp_path_factory.mktemp("package")
     source, target = Path(vibroimpact.__path__[0]), folder / "vibroimpact"
     shutil.copytree(source, target, ignore=shutil.ignore_patterns("libraries", "__pycache__"))
