@@ -92,9 +92,27 @@ class OwnStop(NamedTuple):
     gap: float
 
 
+class Wall(NamedTuple):
+    """A rigid wall.
+
+    Attributes
+    ----------
+    law
+        Name of its law of rebound in `engine.stops.rebound.LAWS`.
+    numbers
+        The numbers of the law.
+    gap
+        G0_j (m).
+    """
+
+    law: str
+    numbers: tuple[float, ...]
+    gap: float
+
+
 StopNumbers = tuple[Any, ...]
-"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop; a `PowerLaw` or
-an `OwnStop`."""
+"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop with a constant
+coefficient of restitution; a `Wall`, a `PowerLaw` or an `OwnStop`."""
 
 
 class Program(NamedTuple):

@@ -10,6 +10,7 @@ import pytest
 
 from vibroimpact.engine import saltation
 from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.stops.rebound import Rebound
 
 SMALL = mpmath.mpf(10) ** -12
 """Of a disturbance, of the event's size: the second order is 1e-12 of the first."""
@@ -40,19 +41,21 @@ def parabola(u, v, a, t):
 @pytest.mark.parametrize("row", ROWS)
 @pytest.mark.parametrize("e", [0.7, 1.0, 1e-3, 0.0])
 @pytest.mark.parametrize("arrival", [1.3, -0.2])
-def test_impact(e, arrival, row):
+@pytest.mark.parametrize("order", [1.0, 0.8])
+def test_impact(order, e, arrival, row):
+    """From e |v| the speed of the return grows as the power `order` of that of the arrival."""
     before, after = -0.4, 2.1
 
     def through(u, v, _):
         v = arrival + v
         t = event_time(lambda t: parabola(u, v, before, t)[0])
         u, v = parabola(u, v, before, t)
-        u, v = parabola(0, -e * v, after, -t)
+        u, v = parabola(0, -e * arrival * (v / arrival) ** order, after, -t)
         return u, v + e * arrival
 
     q = np.zeros(DISTURBANCE)
     q[:2] = row[:2]
-    saltation.impact(q, 0, e, arrival, before, after)
+    saltation.impact(q, 0, Rebound(e, order, 1.0), arrival, before, after)
     np.testing.assert_allclose(q[:2], derivative(through, row), rtol=1e-11, atol=1e-12)
 
 

@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.rig import System
+from vibroimpact.model.stops import STOPS, WallLaw
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 CHECKS_DIMS = False
@@ -131,7 +132,8 @@ def stop_word(data: xr.Dataset) -> str:
     """Return "stop" if a stop of a dataset's rigs is rigid, and "bumper" if all deform."""
     rigs = parameters_of_rigs(data)
     stops = [rig["oscillator"][side] or {} for rig in rigs for side in ("right", "left")]
-    return "stop" if any(stop.get("kind") == "rigid" for stop in stops) else "bumper"
+    kinds = [STOPS.classes.get(stop.get("kind", "")) for stop in stops]
+    return "stop" if any(law and issubclass(law, WallLaw) for law in kinds) else "bumper"
 
 
 def remove_units(dataset: xr.Dataset) -> xr.Dataset:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.compiler import register_jitable
 from vibroimpact.engine.jit import CHOSEN
+from vibroimpact.engine.stops import rebound
 from vibroimpact.law_numbers import (
     OWN_NUMBERS,
     WORDS,
@@ -16,21 +17,23 @@ from vibroimpact.law_numbers import (
     OwnStop,
     PowerLaw,
     StopNumbers,
+    Wall,
 )
 
 # Positions in the vector; the numbers of each stop start at `stop_at`.
 STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
-WIDTH = 8
+WIDTH = 12
 KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI or FORMULA
 BUMPER_STIFFNESS = 1  # K_j/M, 1/s²
 BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
 RATE = 4  # K_j/C_j, 1/s: how fast the free bumper relaxes; infinite where C_j = 0
-RESTITUTION = 5  # of a rigid stop
-EXPONENT = 6  # n of a force k δⁿ, with BUMPER_STIFFNESS in 1/(s² mⁿ⁻¹)
-DISSIPATION = 7  # χ, s/m, or below 0 minus the number d of χ = d / closing speed
+EXPONENT = 5  # n of a force k δⁿ, with BUMPER_STIFFNESS in 1/(s² mⁿ⁻¹)
+DISSIPATION = 6  # χ, s/m, or below 0 minus the number d of χ = d / closing speed
+REBOUND = 7  # of a rigid stop: its law, and the numbers of that (`stops.rebound`)
+RESTITUTION = 8  # the first of these
 LOAD = BUMPER + 2 * WIDTH  # constant force on the mass, F/M, m/s²
 BASE = LOAD + 1  # 1 if the base moves; 0 if it stands still and a force shakes the mass
 SCALE = LOAD + 2  # A_t has the amplitude: what is given · SCALE · ω^POWER
@@ -165,8 +168,9 @@ def rig_vector(
             vector[at + KIND], vector[block : block + OWN_WIDTH] = FORMULA, stop.own
             vector[block + OWN_STIFFNESS] /= mass
             continue
-        if len(stop) == 2:
-            vector[at + KIND], vector[at + RESTITUTION] = RIGID, stop[0]
+        if isinstance(stop, Wall) or len(stop) == 2:
+            place = at + REBOUND
+            vector[at + KIND], vector[place : place + rebound.WIDTH] = RIGID, rebound.written(stop)
             continue
         if isinstance(stop, PowerLaw):
             vector[at + KIND] = JANKOWSKI if stop.viscous else POWER_LAW

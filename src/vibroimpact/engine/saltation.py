@@ -4,7 +4,7 @@ An event comes where a function g of the state reaches zero. A disturbed motion 
 δt = −δg/ġ. For that time it still moves at the rates before the event, and the reference motion
 already at those after it. So each component of a disturbance jumps by (ẏ⁻ − ẏ⁺) δt, which is an
 update of rank one: I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻), n the gradient of g (P. C. Müller, Chaos, Solitons &
-Fractals 5 (1995) 1671). An impact besides maps the velocity, u̇⁺ = −e u̇⁻.
+Fractals 5 (1995) 1671). An impact besides maps the velocity, u̇⁺ = −r(u̇⁻).
 
 A disturbance is a row of q that begins at a place `at`, see `one_mass.tangent`.
 """
@@ -12,6 +12,7 @@ A disturbance is a row of q that begins at a place `at`, see `one_mass.tangent`.
 from __future__ import annotations
 
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.stops.rebound import Rebound
 
 
 @kernel
@@ -22,16 +23,17 @@ def jump(q: Vector, i: int, late: float, before: float, after: float) -> None:
 
 @kernel
 def impact(
-    q: Vector, at: int, restitution: float, arrival: float, before: float, after: float
+    q: Vector, at: int, rebound: Rebound, arrival: float, before: float, after: float
 ) -> None:
     """An impact on a rigid stop, from its arrival (m/s) and the accelerations at both sides of it.
 
-    Of g = u − G it is R (δy + f⁻ δt) − f⁺ δt with δt = −δu/u̇⁻. Where the mass stays at the stop,
-    nothing is left: see `rest`.
+    Of g = u − G it is R (δy + f⁻ δt) − f⁺ δt with δt = −δu/u̇⁻, R = diag(1, −r′). Where the mass
+    stays at the stop, nothing is left: see `rest`.
     """
     u, v = q[at], q[at + 1]
-    q[at] = -restitution * u
-    q[at + 1] = -restitution * v + (after + restitution * before) / arrival * u
+    slope = rebound.restitution * rebound.order
+    q[at] = -rebound.restitution * u
+    q[at + 1] = -slope * v + (after + slope * before) / arrival * u
 
 
 @kernel

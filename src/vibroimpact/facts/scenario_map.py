@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import Rig, to_dimensionless
+from vibroimpact.model import Rig, RigidStop, to_dimensionless
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH, STIFFNESS
 from vibroimpact.model.units import pretty
@@ -65,7 +65,7 @@ def constants(rig: Rig, x: str, y: str) -> str:
     varied = {x, y}
     stops, shaken = rig.oscillator.stops, rig.periodic
     bumpers = [one for stop in stops if (one := stop.spring_and_dashpot)]
-    walls = [dict(stop)["restitution"] for stop in stops if stop.rigid]
+    walls = [stop.restitution for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
     if "stops.stiffness" in (x, y):

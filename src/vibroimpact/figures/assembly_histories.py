@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from vibroimpact.engine.stops.rebound import restitutions
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import (
     History,
@@ -242,4 +243,6 @@ def impulses(motion: xr.Dataset, assembly: Any, stop: str) -> Any:
     """
     part = assembly.stops[stop]
     closing = motion["event_velocity"].values @ assembly.closing(part)
-    return (1.0 + part.law.restitution) * assembly.meeting_mass(part) * np.maximum(closing, 0.0)
+    speed = np.maximum(closing, 0.0)
+    e = restitutions(part.law.engine_numbers(), speed)
+    return (1.0 + e) * assembly.meeting_mass(part) * speed

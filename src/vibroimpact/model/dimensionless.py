@@ -290,7 +290,10 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
         gap = stop.gap / peak_displacement(oscillator, a) if stop.gap else 0.0
         if isinstance(stop, RigidStop):
             return DimensionlessRigidStop(stop.restitution, gap)
-        assert isinstance(stop, Bumper)
+        if not isinstance(stop, Bumper):
+            raise InputError(
+                f"{stop.kind}: its law has no dimensionless parameters; use a Bumper or a RigidStop"
+            )
         time = oscillator.angular_frequency * stop.damping / stop.stiffness
         return DimensionlessBumper(stop.stiffness / k, gap, time)
 

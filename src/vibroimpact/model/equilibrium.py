@@ -24,7 +24,7 @@ from vibroimpact.model.isolators import FrictionIsolator, Isolator
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.state import State
-from vibroimpact.model.stops import Bumper, RigidStop
+from vibroimpact.model.stops import Bumper, WallLaw
 from vibroimpact.model.units import pretty
 
 
@@ -61,7 +61,7 @@ def equilibrium(system: Oscillator | Assembly) -> State | AssemblyState:
         return of_assembly(system)
     oscillator = system
     linear = isinstance(oscillator.isolator, Isolator) and all(
-        isinstance(stop, Bumper | RigidStop) for stop in oscillator.stops
+        isinstance(stop, Bumper | WallLaw) for stop in oscillator.stops
     )
     u = _by_stiffness(oscillator) if linear else _by_root(oscillator)
     return State(u, isolator=oscillator.isolator.remembered(u))
@@ -89,9 +89,9 @@ def _by_stiffness(oscillator: Oscillator) -> float:
 
     # Of all ways to press them one agrees; on the border of two, both give the same u.
     _, u = min(at_rest(pressed) for pressed in product((False, True), repeat=len(bumpers)))
-    if isinstance(oscillator.right, RigidStop):
+    if isinstance(oscillator.right, WallLaw):
         u = min(u, oscillator.right.gap)
-    if isinstance(oscillator.left, RigidStop):
+    if isinstance(oscillator.left, WallLaw):
         u = max(u, -oscillator.left.gap)
     return u
 
@@ -99,15 +99,15 @@ def _by_stiffness(oscillator: Oscillator) -> float:
 def _by_root(oscillator: Oscillator) -> float:
     """The displacement for any laws: the first root on the way out from where it is let go."""
     right, left, isolator = oscillator.right, oscillator.left, oscillator.isolator
-    high = right.gap if isinstance(right, RigidStop) else math.inf
-    low = -left.gap if isinstance(left, RigidStop) else -math.inf
+    high = right.gap if isinstance(right, WallLaw) else math.inf
+    low = -left.gap if isinstance(left, WallLaw) else -math.inf
     begin = max(low, min(high, 0.0))
 
     def stops(u: float) -> float:
         found = 0.0
-        if right is not None and not isinstance(right, RigidStop):
+        if right is not None and not isinstance(right, WallLaw):
             found += right.static_force(u - right.gap)
-        if left is not None and not isinstance(left, RigidStop):
+        if left is not None and not isinstance(left, WallLaw):
             found -= left.static_force(-u - left.gap)
         return found
 

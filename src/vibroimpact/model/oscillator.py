@@ -26,7 +26,7 @@ from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, Isolat
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stated_units import check_no_units, has_unit, values_of
-from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, RigidStop, Stop
+from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, Stop, WallLaw
 from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, takes_fields
@@ -223,7 +223,7 @@ class Oscillator(Model):
 
     @model_validator(mode="after")
     def _room_between_walls(self) -> Self:
-        if isinstance(self.right, RigidStop) and isinstance(self.left, RigidStop):
+        if isinstance(self.right, WallLaw) and isinstance(self.left, WallLaw):
             right, left = self.right.gap, self.left.gap
             if not right + left > 0.0:
                 raise InputError(

@@ -204,7 +204,7 @@ def parameters(rig: Rig) -> dict[str, Parameter]:
     found = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
     found["amplitude"] = _of("amplitude", amplitude_of(of))
     for name, (first, *_) in _places(rig.oscillator).items():
-        found[name] = _of(name, first.accepts, rigid=getattr(first.owner, "kind", "") == "rigid")
+        found[name] = _of(name, first.accepts, rigid=getattr(first.owner, "rigid", False))
     found |= {name: PARAMETERS[name] for name in DERIVED}
     if len(sides) != 1:
         return found

@@ -155,7 +155,7 @@ def link_parts(assembly: Assembly) -> list[tuple[str, bool]]:
 def _stop(part: PartNumbers) -> Stop:
     made = part.law.engine_numbers()
     if part.law.rigid:
-        return Stop(part.left, part.right, part.gap, restitution=made[0])
+        return Stop(part.left, part.right, part.gap, wall=made)
     if isinstance(made, PowerLaw | OwnStop):
         behaviour, row = stop_law(made)
         return Stop(part.left, part.right, part.gap, behaviour=behaviour, law=row)

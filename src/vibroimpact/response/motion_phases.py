@@ -25,6 +25,7 @@ from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPA
 from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
+from vibroimpact.engine.stops.rebound import restitutions
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, Repeated, validate
 from vibroimpact.model.argument_types import MOST_EVENTS
@@ -456,8 +457,8 @@ def parting_velocity(motion: xr.Dataset, oscillator: Oscillator) -> _Array:
     for name in motion["stop"].values:
         stop = getattr(oscillator, name)
         if stop.rigid:
-            restitution, _ = stop.engine_numbers()
-            velocity[(kinds == IMPACT) & (stops == name)] *= -restitution
+            hit = (kinds == IMPACT) & (stops == name)
+            velocity[hit] *= -restitutions(stop.engine_numbers(), abs(velocity[hit]))
             velocity[(kinds == CONTACT_BEGINS) & (stops == name)] = 0.0
     return velocity
 

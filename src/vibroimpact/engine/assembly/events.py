@@ -11,6 +11,7 @@ from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.stops.rebound import rebound
 
 _CHATTERED = 1e-6
 """A chatter is completed where what is left of it lasts for less than this share of the times in
@@ -169,20 +170,21 @@ def let_part(plan: Vector, mode: int, f: int) -> None:
 
 
 def impacts(settle: Any) -> Any:
-    """Make Newton's law of restitution, with `settles` of a flow."""
+    """Make the impact on a rigid stop, with `settles` of a flow."""
 
     def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> int:
-        """Newton's law of restitution at a rigid stop; returns the mode."""
+        """Let a rigid stop return its bodies by its law of rebound; returns the mode."""
         n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
         zeros = beyond(plan, int(plan[at.ZEROS]))
         coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
         v = beyond(y, n)
-        e: float = plan[one + at.RESTITUTION]
         speed = closing(plan, f, v)
         jumps = speed > _NOISE * speeds(plan, f, v)
-        if not jumps:
-            e = 0.0
+        e, onward = 0.0, 0.0
+        if jumps:
+            e = rebound(plan, one + at.REBOUND, speed).restitution
+            onward = rebound(plan, one + at.REBOUND, max(e * speed, 0.0)).onward
         decided = False
         let_part(plan, mode, f)
         for g in range(count):
@@ -195,7 +197,7 @@ def impacts(settle: Any) -> Any:
         # Left without speed, and pressed before anything could part them: the force is only
         # beginning.
         pressed = zeros[f] >= 2.0
-        if pressed or settle(plan, f, max(e * speed, 0.0), e, y, deformation):
+        if pressed or settle(plan, f, max(e * speed, 0.0), onward, y, deformation):
             mode |= 1 << f
             zeros[f] = 0.0
             enter_mode(plan, mode)

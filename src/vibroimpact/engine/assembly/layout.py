@@ -11,6 +11,8 @@ states which watched functions are zero by construction, and how far to leap (se
 
 from __future__ import annotations
 
+from vibroimpact.engine.stops import rebound
+
 (
     MASSES,
     STOPS,
@@ -36,7 +38,6 @@ from __future__ import annotations
     MASS,
     CARRIED,
     LOAD,
-    FLOW,
     NUMBERS,
     LENGTH_OF_PLAN,
     SYMMETRIC,
@@ -46,6 +47,7 @@ from __future__ import annotations
     MODE,
     RATE,
     PRESSED,
+    FLOW,  # at `parameters.FORCING`
     RESTING,
     PRESSED_LIST,
     RESTING_LIST,
@@ -132,12 +134,12 @@ from __future__ import annotations
 ) = range(104)
 HEADER = 104
 
-LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
-FIRST, BEHIND, PARTNER = range(8, 11)
-"""Of a stop: its bodies (n for the ground), gap (m), kind, N/m, N s/m, –, κ (1/s; inf without a
-dashpot), the range of masses on which it acts at once, and the stop that is its mirror image (−1 if
-none is)."""
-STOP_WIDTH = 11
+LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RELAXATION = range(7)
+FIRST, BEHIND, PARTNER, REBOUND, RESTITUTION = range(7, 12)
+"""Of a stop: its bodies (n for the ground), gap (m), kind, N/m, N s/m, κ (1/s; inf without a
+dashpot), the range of masses on which it acts at once, the stop that is its mirror image (−1 if
+none is), and of a rigid one its law of rebound and the numbers of that (`stops.rebound`)."""
+STOP_WIDTH = REBOUND + rebound.WIDTH
 
 DRIFT_LEFT, DRIFT_RIGHT, DRIFT_DAMPING = range(3)
 """Of a drift u_right − u_left: its bodies (n for the ground), and the dashpot between them (N s/m)

@@ -22,6 +22,8 @@ from vibroimpact.engine.assembly.mode import RATES_KEPT
 from vibroimpact.engine.assembly.rates import rates_size
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.stops import rebound
+from vibroimpact.law_numbers import StopNumbers
 
 Matrix = NDArray[np.float64]
 
@@ -52,6 +54,8 @@ class Stop(NamedTuple):
     behaviour, law
         Of a curved law (`curved.layout`): what it does, and its numbers as the vector of a rig of
         1 kg (`curved.plan`). Curved links stand behind all stops.
+    wall
+        Of a rigid stop: its numbers; None if they are `restitution` and `gap`.
     """
 
     left: int
@@ -62,13 +66,19 @@ class Stop(NamedTuple):
     restitution: float | None = None
     behaviour: int = 0
     law: tuple[float, ...] = ()
+    wall: StopNumbers | None = None
+
+    @property
+    def rigid(self) -> bool:
+        """Whether bodies cannot pass it."""
+        return self.restitution is not None or self.wall is not None
 
     @property
     def kind(self) -> int:
         """What it is, as in a plan."""
         if self.behaviour:
             return at.PUSHING if self.behaviour in PUSHING else at.LINK
-        return at.KELVIN_VOIGT if self.restitution is None else at.RIGID
+        return at.RIGID if self.rigid else at.KELVIN_VOIGT
 
 
 class Drift(NamedTuple):
@@ -359,18 +369,18 @@ def partners(stops: Sequence[Stop]) -> list[float]:
 
 
 def _stop(stop: Stop, n: int, acts: Vector, partner: float) -> list[float]:
-    rigid = stop.restitution is not None
+    wall = stop.wall or (stop.restitution or 0.0, stop.gap)
     return [
         stop.left if stop.left != GROUND else n,
         stop.right if stop.right != GROUND else n,
         stop.gap,
         stop.kind,
-        0.0 if rigid else stop.stiffness,
-        0.0 if rigid else stop.damping,
-        stop.restitution if stop.restitution is not None else 0.0,
+        0.0 if stop.rigid else stop.stiffness,
+        0.0 if stop.rigid else stop.damping,
         _relaxation(stop),
         *acts,
         partner,
+        *rebound.written(wall),
     ]
 
 

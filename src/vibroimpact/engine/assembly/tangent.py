@@ -7,7 +7,8 @@ mode it obeys the homogeneous equations. At an event, the disturbed motion is la
 - A Kelvin–Voigt stop is met: (δu, δv) += (f⁻ − f⁺) δt. As the force begins with −c ġ, the closing
   speed cancels: δv += M⁻¹w c δg. Then δ of the pressed deformation is w·δu.
 - It is left: both vector fields agree, nothing happens. The same where a rest ends.
-- Impact: R(δy + f⁻ δt) − f⁺ δt, R x = x − (1 + e) M⁻¹w (w·x)/(wᵀM⁻¹w) on velocities.
+- Impact: R(δy + f⁻ δt) − f⁺ δt, R x = x − (1 + r′) M⁻¹w (w·x)/(wᵀM⁻¹w) on velocities, r(ġ) the
+  speed with which the bodies part.
 - Rest begins: the same with the projection onto what all resting stops allow.
 """
 
@@ -39,6 +40,7 @@ from vibroimpact.engine.event import (
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import DAMPING, HITS
+from vibroimpact.engine.stops.rebound import Rebound, rebound
 
 
 @kernel
@@ -130,10 +132,19 @@ def contraction(plan: Vector, mode: int) -> float:
 
 
 @kernel
+def rebound_at_end(plan: Vector, f: int) -> Rebound:
+    """What a rigid stop makes of the closing speed at the end of the last stretch."""
+    arrived = beyond(plan, int(plan[at.END]) + int(plan[at.MASSES]))
+    place = int(plan[at.STOP]) + f * at.STOP_WIDTH + at.REBOUND
+    found: Rebound = rebound(plan, place, max(closing(plan, f, arrived), 0.0))
+    return found
+
+
+@kernel
 def note(plan: Vector, notes: Vector) -> None:
     """Note what the last stretch and its event take of a volume of (u, v), and the contact.
 
-    An impact multiplies what is left of it by e², a rest leaves nothing.
+    An impact multiplies what is left of it by e r′, a rest leaves nothing.
     """
     event, length = int(plan[at.EVENT]), plan[at.LENGTH]
     f = stop_of(event)
@@ -141,9 +152,9 @@ def note(plan: Vector, notes: Vector) -> None:
     if begins_contact(event):
         notes[HITS + f] += 1.0
     if kind_of(event) == IMPACT:
-        e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
+        e, order, _ = rebound_at_end(plan, f)
         left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
-        notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
+        notes[DAMPING] += -2.0 * math.log(e) - math.log(order) if left else math.inf
 
 
 @kernel
@@ -196,7 +207,8 @@ def reflect(plan: Vector, row: Vector, before: Vector, after: Vector) -> None:
     else:
         e = -closing(plan, f, left) / speed if speed > 0.0 else 0.0
         coupling = plan[int(plan[at.COUPLING]) + f * count + f]
-        kick = (1.0 + e) * closing(plan, f, beyond(row, n)) / coupling
+        slope = e * rebound_at_end(plan, f).order
+        kick = (1.0 + slope) * closing(plan, f, beyond(row, n)) / coupling
         response = int(plan[at.RESPONSE]) + f * n
         for k in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
             row[n + k] -= plan[response + k] * kick

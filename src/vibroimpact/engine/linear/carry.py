@@ -82,5 +82,5 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
         tie(mode, q, at)
     if begins_contact(event):
         meet(plan, event, arrival, after, q, rows)
-    lost: float = damping(plan, mode) * step + contraction(plan, event, after)
+    lost: float = damping(plan, mode) * step + contraction(plan, event, arrival, after)
     return lost

@@ -26,6 +26,7 @@ from vibroimpact.engine.motion import (
     unpacked,
 )
 from vibroimpact.engine.state import DAMPING, HITS, MODE, ONE_MASS
+from vibroimpact.engine.stops.rigid import rebound_at
 
 DISTURBANCE = ONE_MASS.total
 """Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3), and
@@ -72,7 +73,7 @@ def meet(plan: Vector, event: int, arrival: float, after: Motion, q: Vector, row
         if mode >> number & 1:
             saltation.rest(q, at)
         else:
-            saltation.impact(q, at, plan[stop + par.RESTITUTION], arrival, before, behind)
+            saltation.impact(q, at, rebound_at(plan, number, arrival), arrival, before, behind)
         tie(mode, q, at)
 
 
@@ -98,13 +99,15 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
 
 
 @kernel
-def contraction(plan: Vector, event: int, after: Motion) -> float:
-    """Minus the logarithm of the area that an event leaves of (u, u̇): 2 ln(1/e) at an impact."""
+def contraction(plan: Vector, event: int, arrival: float, after: Motion) -> float:
+    """Minus the logarithm of the area that an event leaves of (u, u̇): e r′ at an impact."""
     if kind_of(event) != IMPACT:
         return 0.0
     stop = stop_of(event)
-    e: float = plan[par.stop_at(stop) + par.RESTITUTION]
-    return math.inf if after.mode >> stop & 1 or e == 0.0 else -2.0 * math.log(e)
+    e, order, _ = rebound_at(plan, stop, arrival)
+    if after.mode >> stop & 1 or e == 0.0:
+        return math.inf
+    return -2.0 * math.log(e) - math.log(order)
 
 
 @kernel

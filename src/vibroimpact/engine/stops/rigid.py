@@ -1,4 +1,4 @@
-"""A rigid stop: it returns the mass with a share of its speed, or the mass rests on it."""
+"""A rigid stop: it returns the mass by its law of rebound, or the mass rests on it."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from vibroimpact.engine.motion import (
 from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, overlapping, place_at, total_gap
+from vibroimpact.engine.stops.rebound import Rebound, rebound
 
 _CHATTERED = 1e-6
 """A chatter is completed where its rest lasts for less than this share of the time in which the
@@ -41,6 +42,13 @@ in two at its top: they would go on for ever."""
 def rigid(plan: Vector, stop: int) -> bool:
     """Whether a stop is rigid."""
     return bool(plan[par.stop_at(stop) + par.KIND] == par.RIGID)
+
+
+@kernel
+def rebound_at(plan: Vector, stop: int, v: float) -> Rebound:
+    """What a rigid stop makes of a velocity."""
+    found: Rebound = rebound(plan, par.stop_at(stop) + par.REBOUND, abs(v))
+    return found
 
 
 @kernel
@@ -64,14 +72,14 @@ def impact(plan: Vector, stop: int, t: float, arrival: float, motion: Motion) ->
     """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
     mode, _, _, v, faces, z, _, clock = motion
     event, bit = event_of(IMPACT, stop), 1 << stop
-    restitution = plan[par.stop_at(stop) + par.RESTITUTION]
     u = place_at(plan, stop, 0.0)  # which from a pressed bumper's face is rounded
-    v = -restitution * v
+    v = -rebound_at(plan, stop, v).restitution * v
     bounced = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
     push = facing(stop) * acceleration_of(plan, bounced)  # towards the stop
-    if not push > 0.0 or restitution >= 1.0:
+    onward = rebound_at(plan, stop, v).onward
+    if not push > 0.0 or onward >= 1.0:
         return event, t, arrival, bounced
-    rest = chatter(v, restitution, push)
+    rest = chatter(v, onward, push)
     # How fast the push may change meanwhile, and the rig's own rates.
     change = plan[par.DAMPING] * push + plan[STEEPEST]
     stiffness = springs(plan, bounced)
@@ -104,7 +112,7 @@ def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
     bit = fresh & BOTH
     stop = main_stop(bit)
     push = acceleration_of(plan, motion) * facing(stop)
-    t = min(chatter(v, plan[par.stop_at(stop) + par.RESTITUTION], push), limit)
+    t = min(chatter(v, rebound_at(plan, stop, v).onward, push), limit)
     faces = changed(relaxed_faces(plan, mode, faces, t), stop, 0.0)
     u = place_at(plan, stop, 0.0)
     clock = turned(plan, clock[0], clock[1], t)

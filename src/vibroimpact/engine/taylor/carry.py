@@ -145,7 +145,7 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
             elif not kept:
                 q[at] *= fading
     _event(plan, before, event, arrival, after, q, rows)
-    return lost + contraction(plan, event, after)
+    return lost + contraction(plan, event, arrival, after)
 
 
 @kernel

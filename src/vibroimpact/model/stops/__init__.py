@@ -4,8 +4,8 @@ A stop pushes and never pulls. Its gap is the distance from the mass at u = 0 to
 = gap on the right, u = -gap on the left. A stop with a negative gap presses the mass away from u =
 0.
 
-A new law is a class derived from `StopLaw`, or from `FormulaStop` if a formula gives its force, and
-an entry of `STOPS`.
+A new law is a class derived from `StopLaw`, from `FormulaStop` if a formula gives its force, or
+from `WallLaw` if it is rigid, and an entry of `STOPS`.
 """
 
 from typing import TypeAlias
@@ -14,7 +14,7 @@ from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops.bumper import Bumper
 from vibroimpact.model.stops.jankowski import JankowskiBumper
-from vibroimpact.model.stops.law import FormulaStop, StopLaw
+from vibroimpact.model.stops.law import FormulaStop, StopLaw, WallLaw
 from vibroimpact.model.stops.power import PowerBumper
 from vibroimpact.model.stops.rigid import RigidStop
 
@@ -33,4 +33,5 @@ __all__ = [
     "RigidStop",
     "Stop",
     "StopLaw",
+    "WallLaw",
 ]

@@ -24,7 +24,8 @@ class StopLaw(Named):
     A new law has a ``kind``, its fields (one of them ``gap``) with their quantities and bounds,
     defines `engine_numbers`, `static_force` and `force`, and is an entry of `STOPS`. What it does
     not define is that of a deformable stop without memory. A law that is given by a formula is
-    derived from `FormulaStop` instead, and needs no more than its fields and the formula.
+    derived from `FormulaStop` instead, and needs no more than its fields and the formula; a rigid
+    one, from `WallLaw`.
 
     Attributes
     ----------
@@ -99,6 +100,24 @@ class StopLaw(Named):
     def initial_damping(self) -> float:
         """Derivative of the force with respect to the velocity, at no deformation (N s/m)."""
         return self.spring_and_dashpot[1] if self.spring_and_dashpot else 0.0
+
+
+class WallLaw(StopLaw):
+    """Base class of the rigid stops, which return the mass at once, or hold it at rest.
+
+    A new one has a ``kind``, its fields (one of them ``gap``), and `engine_numbers` that return a
+    `Wall` with the name of a law of rebound; `engine.stops` describes the law.
+    """
+
+    @property
+    def linear(self) -> bool:
+        """Whether the motion between impacts stays linear: always true for a rigid wall."""
+        return True
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the mass cannot pass the stop: always true."""
+        return True
 
 
 class FormulaStop(StopLaw):

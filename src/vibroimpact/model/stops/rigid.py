@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Self
 
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH
-from vibroimpact.model.stops.law import StopLaw
+from vibroimpact.model.stops.law import WallLaw
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.validation import Accepts, takes_fields
 
 
-class RigidStop(StopLaw):
+class RigidStop(WallLaw):
     """A rigid wall. The mass rebounds from it at once, or comes to rest on it.
 
     If the mass reaches the wall with the velocity v, it leaves the wall with the velocity -e v. If
@@ -46,16 +46,6 @@ class RigidStop(StopLaw):
     ) -> Self:
         """Return such a stop."""
         return cls(restitution, gap)
-
-    @property
-    def linear(self) -> bool:
-        """Whether the motion between impacts stays linear: always true for a rigid wall."""
-        return True
-
-    @property
-    def rigid(self) -> bool:
-        """Whether the mass cannot pass the stop: always true."""
-        return True
 
     def engine_numbers(self) -> tuple[float, float]:
         """Return e and the gap (m)."""
