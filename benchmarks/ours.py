@@ -15,7 +15,7 @@ from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.parameters import rig_vector
-from vibroimpact.engine.state import ONE_MASS, copy, room, width
+from vibroimpact.engine.state import ONE_MASS, copy, state_buffer, width
 from vibroimpact.engine.status import Status
 from vibroimpact.law_numbers import IsolatorNumbers, StopNumbers
 
@@ -96,11 +96,11 @@ def trajectory(
 def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     """Count what happens in so many forcing periods from rest."""
     state = np.zeros(ONE_MASS.width)
-    room = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
+    buffer = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
     out = np.empty((record.SAMPLE, 0))
     shaking = (problem.amplitude, frequency(problem), PHASE)
     _, count, _ = batch.trajectory(
-        rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, room
+        rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, buffer
     )
     return int(count)
 
@@ -125,7 +125,7 @@ def _counted(
 ) -> int:
     plan = planned(given, rig)
     flow.build(plan, amplitude, math.tau * frequency)
-    here = room()
+    here = state_buffer()
     copy(pointer(state), here, width(plan))
     total = 0
     for _ in range(periods):

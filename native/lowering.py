@@ -23,7 +23,7 @@ from vibroimpact import engine
 from vibroimpact.engine import flow_dispatch, flow_tables, jit, kernel_linking, native
 from vibroimpact.engine.compilation import Compiled
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.plain_entries import Alone, Single
+from vibroimpact.engine.rigless_entry import NoRig, RiglessEntry
 
 KEPT = Path(__file__).parents[1] / "out" / "lowered"
 """Lowered code of these sources: each further target needs only LLVM."""
@@ -38,8 +38,8 @@ def functions() -> Iterator[tuple[Compiled, Any]]:
     names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
     for name in names:
         for value in vars(importlib.import_module(name)).values():
-            if isinstance(value, Entry | Single) and value.function.__module__ == name:
-                yield value, np.empty(8) if isinstance(value, Entry) else Alone()
+            if isinstance(value, Entry | RiglessEntry) and value.function.__module__ == name:
+                yield value, np.empty(8) if isinstance(value, Entry) else NoRig()
     for flow in flow_dispatch.FLOWS:
         for group in flow_tables.GROUPS.values():
             yield group, flow(np.empty(8))
@@ -83,7 +83,7 @@ def lowered(index: int) -> tuple[str, bytes]:
     gc.enable()
     (made,) = dispatcher.overloads.values()
     module = llvm.parse_assembly(_without_places(str(_module_of(made))))
-    kernel_linking.keep_apart(module)
+    kernel_linking.forbid_inlining(module)
     name = made.fndesc.llvm_func_name
     for one in (*module.functions, *module.global_variables):
         if not one.is_declaration and one.name != name:

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from paper import claims, items, report, summary
 from paper.claim import Claim
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.cli.output import output_folder, progress_bar, tell, warnings_in_lines
 from vibroimpact.errors import InputError

@@ -6,7 +6,7 @@ from typing import Literal
 
 from matplotlib.figure import Figure
 
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import family_legend, resonance_family
 from vibroimpact.model import laboratory

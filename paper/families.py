@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import xarray as xr
 from matplotlib.figure import Figure
 
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import GAPS, STIFFNESSES, PublishedStudy
 from vibroimpact.figures import family_legend, resonance_family
 from vibroimpact.figures.family import Quantity

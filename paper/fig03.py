@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import family_legend, resonance_family
 from vibroimpact.figures.family import Quantity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 from matplotlib.figure import Figure
 
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import hysteresis_cycle, resonance_curves
 from vibroimpact.figures.legends import add_legend

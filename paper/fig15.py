@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import frequency_marks, resonance_curves
 from vibroimpact.response.resonance import Features, features

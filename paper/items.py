@@ -15,7 +15,7 @@ from paper import (
     refined,
     table1,
 )
-from paper.item import Item
+from paper.report_item import Item
 
 _SINGLE = (fig03, fig04, fig14, fig15, fig21, table1)
 _ALL = (

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from paper import fig15
 from paper.curves import S3, S5, S5_RANGE
-from paper.item import Item
+from paper.report_item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import (
     clearances,

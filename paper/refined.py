@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from paper import fig03, fig14
 from paper.campaign import panels_of
 from paper.curves import S2, S3, curves_of
-from paper.item import Item, Table
+from paper.report_item import Item, Table
 from paper.study import PublishedStudy
 from vibroimpact.model import GRAVITY, Harmonic, Oscillator, laboratory
 from vibroimpact.model.rig import Rig

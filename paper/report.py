@@ -10,7 +10,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from paper.claim import Claim, Finding, Kind, Verdict
 from paper.claims.reasons import REASONS
-from paper.item import Item, Table
+from paper.report_item import Item, Table
 from paper.study import PublishedStudy
 from vibroimpact._version import __version__
 from vibroimpact.datasets.files import write_whole

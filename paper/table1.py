@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from paper.item import Item, Table
+from paper.report_item import Item, Table
 from paper.study import PublishedStudy
 from vibroimpact.model import laboratory
 

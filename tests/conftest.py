@@ -25,9 +25,9 @@ def room_of(stack: Callable[[int], Any]) -> Callable[[int], Any]:
     """Let what gives room on the stack of a compiled kernel give an array in Python."""
 
     def make(size: int) -> Any:
-        room = stack(size)
-        room.__class__ = type("Room", (type(room),), {"__call__": lambda self: np.empty(size)})
-        return room
+        buffer = stack(size)
+        buffer.__class__ = type("Room", (type(buffer),), {"__call__": lambda self: np.empty(size)})
+        return buffer
 
     return make
 

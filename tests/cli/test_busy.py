@@ -17,7 +17,7 @@ from samples import sample
 pytest.importorskip("pty", reason="no pseudo-terminals here")
 
 ENTRY = """\
-from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.rigless_entry import single
 
 
 @single("f8(f8[::1])")

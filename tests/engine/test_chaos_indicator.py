@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.engine import hold
+from vibroimpact.engine import steady_response
 from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import Status
 from vibroimpact.response.hold_rows import Settling
@@ -30,7 +30,10 @@ def held(frequency: float, transient: float, max_cycles: int):
 
 
 def is_plain(row, max_cycles: int) -> bool:
-    return row[hold.OUTCOME] == Status.NOT_SETTLED and row[hold.CYCLES] < max_cycles
+    return (
+        row[steady_response.OUTCOME] == Status.NOT_SETTLED
+        and row[steady_response.CYCLES] < max_cycles
+    )
 
 
 def test_chaos_is_told_within_a_few_cycles() -> None:
@@ -38,30 +41,30 @@ def test_chaos_is_told_within_a_few_cycles() -> None:
     row = held(1.06, SOON, 400)
     assert is_plain(row, 400)
     exponent = float(vi.lyapunov_exponents(CASE, [1.06], 2000)["exponents"].max())
-    assert row[hold.CYCLES] - 128 == pytest.approx(12.0 / (exponent / 1.06), abs=12)
-    assert row[hold.PERIOD] == 0
-    assert np.isfinite(row[hold.A_MOST])
+    assert row[steady_response.CYCLES] - 128 == pytest.approx(12.0 / (exponent / 1.06), abs=12)
+    assert row[steady_response.PERIOD] == 0
+    assert np.isfinite(row[steady_response.A_MOST])
 
 
 @pytest.mark.parametrize("frequency", [0.7, 1.1035, 1.107, 1.2, 1.5, 3.0])
 def test_what_settles_is_as_without(frequency: float) -> None:
     """Among them motions of two and four cycles, which attract weakly."""
     asked, patient = (held(frequency, transient, 3000) for transient in (SOON, PATIENT))
-    assert patient[hold.PERIOD] > 0
-    assert asked[hold.PERIOD] == patient[hold.PERIOD]
-    assert asked[hold.A_MOST] == pytest.approx(patient[hold.A_MOST], rel=1e-9)
+    assert patient[steady_response.PERIOD] > 0
+    assert asked[steady_response.PERIOD] == patient[steady_response.PERIOD]
+    assert asked[steady_response.A_MOST] == pytest.approx(patient[steady_response.A_MOST], rel=1e-9)
 
 
 def test_patience_is_the_default() -> None:
     """A sweep that is not told to ask waits, as it is documented to."""
-    assert held(1.06, PATIENT, 400)[hold.CYCLES] >= 500
+    assert held(1.06, PATIENT, 400)[steady_response.CYCLES] >= 500
     assert vi.sweep(CASE, [1.06], max_cycles=400, window=100)["cycles"].min() >= 500
 
 
 def test_it_is_asked_behind_the_transient() -> None:
     row = held(1.06, 100.0 / 1.06, 400)
     assert is_plain(row, 400)
-    assert 204 < row[hold.CYCLES] < 300
+    assert 204 < row[steady_response.CYCLES] < 300
 
 
 def test_what_is_plain_is_chaotic() -> None:

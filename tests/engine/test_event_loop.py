@@ -17,7 +17,7 @@ from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.record import DETACHMENT
 from vibroimpact.engine.one_mass import record
-from vibroimpact.engine.state import EVENT, ONE_MASS, STEP, T, copy, load, room, width
+from vibroimpact.engine.state import EVENT, ONE_MASS, STEP, T, copy, load, state_buffer, width
 from vibroimpact.response.engine_input import engine_rig
 
 AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST = 0.6, 1.2 / math.tau, 0.3, 20, 100
@@ -48,7 +48,7 @@ def look(given, rig, state, amplitude, frequency, phase, cycles, max_events, out
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     s, c = math.sin(phase), math.cos(phase)
-    here = room()
+    here = state_buffer()
     load(plan, pointer(state), here, s, c)
     count = 0
     for _ in range(cycles):

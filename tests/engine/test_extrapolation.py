@@ -96,20 +96,20 @@ def test_two_secants_tell_an_affine_map() -> None:
     rng = np.random.default_rng(0)
     matrix = np.array([[0.3, -0.7], [0.6, 0.5]])
     goal = rng.normal(size=2)
-    room = np.zeros(extrapolation.ROOM)
+    buffer = np.zeros(extrapolation.ROOM)
     units = np.ones(2)
     state = rng.normal(size=2)
     for _ in range(4):
         image = goal + matrix @ (state - goal)
         before, after = (np.array([0.0, 0.0, *one]) for one in (state, image))
-        extrapolation.remember_change(room, before, after, 2)
+        extrapolation.remember_change(buffer, before, after, 2)
         state = image
         if _ >= 2:
-            way, moved, contracts = extrapolation.guess(room, units, 2)
+            way, moved, contracts = extrapolation.guess(buffer, units, 2)
     assert contracts
     assert moved < 1e-13
     assert way == pytest.approx(abs(goal - state).max(), rel=1e-10)
-    np.testing.assert_allclose(room[12:14], goal, rtol=1e-12)
+    np.testing.assert_allclose(buffer[12:14], goal, rtol=1e-12)
 
 
 def test_a_slow_approach_is_shortened_too() -> None:

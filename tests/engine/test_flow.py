@@ -13,7 +13,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.flow_tables import GROUPS
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.observers import growth
-from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
+from vibroimpact.engine.observers.record import WRITTEN, note_buffer, start_notes
 from vibroimpact.engine.one_mass import record as written
 from vibroimpact.engine.one_mass import table as one_mass
 from vibroimpact.engine.one_mass.extremes import A_MOST, T_MOST, U_MOST
@@ -22,10 +22,10 @@ from vibroimpact.engine.state import (
     FIRST,
     ONE_MASS,
     copy,
-    measures_room,
-    notes_room,
-    parts_room,
-    room,
+    measures_buffer,
+    notes_buffer,
+    parts_buffer,
+    state_buffer,
     width,
     wind,
 )
@@ -64,8 +64,8 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     period = 1.0 / frequency
-    state, notes, found = room(), measures_room(), notes_room()
-    kept, q, w = note_room(), np.zeros(25), np.zeros(25)
+    state, notes, found = state_buffer(), measures_buffer(), notes_buffer()
+    kept, q, w = note_buffer(), np.zeros(25), np.zeros(25)
     for which in range(7):
         copy(pointer(start), state, width(plan))
         wind(plan, state, S, C)
@@ -100,7 +100,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             flow.units(plan, pointer(w))
             q[:] = 0.0
             grows = growth.rows_of(
-                plan, pointer(q), growth.work_room(), pointer(w), beyond(found, 3), 2
+                plan, pointer(q), growth.work_buffer(), pointer(w), beyond(found, 3), 2
             )
             growth.begin_rows(plan, state, grows, 0, 2)
             count = grown(plan, state, S, C, period, MOST, found, grows)
@@ -133,7 +133,7 @@ def asked(given, rig, amplitude, frequency, start, out, q):
     """What a flow tells of a state without following it."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    state, numbers = room(), parts_room()
+    state, numbers = state_buffer(), parts_buffer()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     out[0] = flow.parts(plan)
@@ -186,7 +186,7 @@ def test_what_is_said_of_a_state(name: str) -> None:
 def freely(given, rig, amplitude, frequency, start, out):
     plan = planned(given, rig)
     flow.begin(plan, amplitude, 2.0 * math.pi * frequency)
-    state, found = room(), measures_room()
+    state, found = state_buffer(), measures_buffer()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     free = flow.undisturbed(plan, state, 0.999, found)

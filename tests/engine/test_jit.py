@@ -17,7 +17,7 @@ from vibroimpact.engine import native
 from vibroimpact.engine.flow_dispatch import ADVANCE
 
 ENTRY = """\
-from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.rigless_entry import single
 
 
 @single("f8(f8[::1])")
@@ -41,7 +41,7 @@ for function in (*GROUPS.values(), *entries()):
 NOTICE = "compiling the engine"
 
 SMALL = """\
-from vibroimpact.engine.plain_entries import Single
+from vibroimpact.engine.rigless_entry import Single
 from vibroimpact.engine.parameters import free_rig
 first = eval("lambda given, rig: rig[0]")
 assert Single(first, "f8(f8[::1])")(free_rig()) == 1.0

@@ -23,7 +23,7 @@ add = JITCPUCodegen._add_module
 JITCPUCodegen._add_module = lambda self, module: (made.append(module.name), add(self, module))[1]
 
 from vibroimpact.engine import kernel_linking
-from vibroimpact.engine.plain_entries import Single
+from vibroimpact.engine.rigless_entry import Single
 from vibroimpact.engine.jit import kernel
 
 kernel_linking.KNOWN = sys.argv[1]
@@ -71,7 +71,7 @@ def test_only_a_kernel_that_is_marked_is_kept_apart() -> None:
     """One of the same name in another module, or in another function, is not."""
     name = "vibroimpact.engine.assembly.series.expanding.<locals>.expand_masses"
     assert flow_tables.GROUPS  # whose module has all kernels defined
-    assert name in jit.APART
+    assert name in jit.NOT_INLINED
     others = (name.replace("series", "tables"), name.rpartition(".")[2], f"{name}_2")
     symbols = [
         mangle(one, (numba.float64,), abi_tags=(), uid=3)
@@ -79,6 +79,6 @@ def test_only_a_kernel_that_is_marked_is_kept_apart() -> None:
     ]
     code = "".join(f'define void @"{one}"() {{ ret void }}\n' for one in symbols)
     module = llvm.parse_assembly(code)
-    kernel_linking.keep_apart(module)
+    kernel_linking.forbid_inlining(module)
     marked = [one.name for one in module.functions if b"noinline" in set(one.attributes)]
     assert marked == symbols[:1]

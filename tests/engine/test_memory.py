@@ -7,7 +7,7 @@ import numpy as np
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer, stack
 
-room = stack(5)
+buffer = stack(5)
 
 
 @kernel
@@ -18,7 +18,7 @@ def filled(memory: Vector, first: float) -> None:
 
 @kernel
 def two_rooms() -> tuple[float, float, float]:
-    one, other = room(), room()
+    one, other = buffer(), buffer()
     filled(one, 10.0)
     filled(other, 20.0)
     return one[0], one[4], other[4]

@@ -129,15 +129,15 @@ def test_same_bits_as_numba() -> None:
 @pytest.mark.skipif(native.find_library() is None, reason="numba compiles in this process")
 def test_arrays_that_the_code_cannot_read_are_refused() -> None:
     from vibroimpact.engine import spectra
-    from vibroimpact.engine.plain_entries import Alone
+    from vibroimpact.engine.rigless_entry import NoRig
 
-    symbol = spectra.respond.symbol(Alone)
+    symbol = spectra.respond.symbol(NoRig)
     respond = native.function(symbol, spectra.respond.signature, "f8")
     one, counter, out = np.ones(2), np.array([0, 1]), np.zeros((2, spectra.FOUND))
     with pytest.raises(TypeError, match="float32"):
-        respond(Alone(), one.astype(np.float32), 0.1, one, one, counter, out)
+        respond(NoRig(), one.astype(np.float32), 0.1, one, one, counter, out)
     with pytest.raises(TypeError, match="C order"):
-        respond(Alone(), np.ones(4)[::2], 0.1, one, one, counter, out)
+        respond(NoRig(), np.ones(4)[::2], 0.1, one, one, counter, out)
 
 
 @pytest.fixture

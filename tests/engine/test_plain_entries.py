@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import cache, native, spectra
-from vibroimpact.engine.plain_entries import Alone
+from vibroimpact.engine.rigless_entry import NoRig
 
 LOAD = """\
 from vibroimpact.engine import spectra
-from vibroimpact.engine.plain_entries import Alone
+from vibroimpact.engine.rigless_entry import Alone
 spectra.respond.prepare()
 stats = spectra.respond._compiled[Alone].stats
 assert stats.cache_hits and not stats.cache_misses
@@ -37,4 +37,4 @@ def test_it_stops_when_it_is_told_to() -> None:
     one = np.ones(2)
     spectra.respond(np.array([0.0, 1.0]), 0.1, one, 0.05 * one, counter, out)
     assert (out == -1.0).all()
-    assert set(spectra.respond._compiled) == {Alone}
+    assert set(spectra.respond._compiled) == {NoRig}

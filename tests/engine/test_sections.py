@@ -21,14 +21,14 @@ class Diary(NamedTuple):
     """Numbers of the sections, the room for them, and the events that are reported."""
 
     notes: np.ndarray
-    room: int
+    buffer: int
     events: int
 
 
 @kernel
 def _keep(plan, state, section, leg, diary):
     number, s, c, length, max_events = leg
-    if number >= diary.room:
+    if number >= diary.buffer:
         return FULL
     diary.notes[number] = length
     flow.cycle(plan, state, s, c, length, max_events)
@@ -45,14 +45,14 @@ def begun(plan, rig, amplitude, omega):
     flow.build(plan, amplitude, omega)
 
 
-def followed(rows, first, last, state, *, changes=False, room=100, events=0, progress=None):
+def followed(rows, first, last, state, *, changes=False, buffer=100, events=0, progress=None):
     """The section to go on with and the outcome; then the lengths that were followed."""
     plan = plan_of(free_rig(), ("motion",))
     begun(plan, free_rig(), 1.0, 2.0)
     table = np.array(rows, dtype=float).ravel()
     notes = np.full(100, np.nan)
     schedule = Schedule(table, len(table) // ROW, changes)
-    diary = Diary(notes, room, events)
+    diary = Diary(notes, buffer, events)
     number, outcome = follow(plan, state, schedule, first, float(last), 50, diary, progress)
     return number, outcome, notes
 
@@ -81,7 +81,7 @@ def test_many_calls_are_one_to_the_last_bit() -> None:
 
 def test_without_room_to_note_it_a_section_is_left_for_later() -> None:
     later, at_once = rest(), rest()
-    assert followed(CYCLE, 0, 6, later, room=4)[:2] == (4, DONE)
+    assert followed(CYCLE, 0, 6, later, buffer=4)[:2] == (4, DONE)
     assert followed(CYCLE, 4, 6, later)[:2] == (6, DONE)
     followed(CYCLE, 0, 6, at_once)
     np.testing.assert_array_equal(later, at_once)

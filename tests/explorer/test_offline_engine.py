@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vibroimpact.engine import hold, native
+from vibroimpact.engine import native, steady_response
 from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.explorer.controls import controls
@@ -166,15 +166,17 @@ def test_sweeps_and_motions_are_those_of_python(run):
         settling = Settling(max_cycles=curves.PATIENCE, window=curves.WINDOW)
         expected, reached = rows(plan, state.direction, 0.0, settling, np.zeros(2, np.int64))
         here, there = numbers(found["rows"]), numbers(found["states"])
-        assert (expected[:, hold.PERIOD] == here[:, hold.PERIOD]).mean() > 0.9
+        assert (expected[:, steady_response.PERIOD] == here[:, steady_response.PERIOD]).mean() > 0.9
         # Behind what wanders, for ever or for long, rounding decides which of two motions follows.
-        calm = (expected[:, hold.PERIOD] > 0) & (expected[:, hold.CYCLES] <= WANDERING)
+        calm = (expected[:, steady_response.PERIOD] > 0) & (
+            expected[:, steady_response.CYCLES] <= WANDERING
+        )
         same = np.logical_and.accumulate(calm[:: ORDER[state.direction]])[:: ORDER[state.direction]]
         for columns in (
-            [hold.U_LEAST, hold.U_MOST],
-            [hold.A_LEAST, hold.A_MOST],
-            [hold.T_LEAST, hold.T_MOST],
-            [hold.FORCE, hold.FORCE + 1],
+            [steady_response.U_LEAST, steady_response.U_MOST],
+            [steady_response.A_LEAST, steady_response.A_MOST],
+            [steady_response.T_LEAST, steady_response.T_MOST],
+            [steady_response.FORCE, steady_response.FORCE + 1],
         ):
             one, other = expected[same][:, columns], here[same][:, columns]
             finite = np.isfinite(one) & np.isfinite(other)

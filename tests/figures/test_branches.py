@@ -168,8 +168,8 @@ def test_a_fold_is_seen_inside_the_grazing_beside_it():
     ax = branch_diagram(diagram())
     fold, grazing = marks(ax)["fold"], marks(ax)["grazing"]
     assert grazing.get_markerfacecolor() == "none"
-    room = grazing.get_markersize() - 2.0 * grazing.get_markeredgewidth()
-    assert fold.get_markersize() < room
+    buffer = grazing.get_markersize() - 2.0 * grazing.get_markeredgewidth()
+    assert fold.get_markersize() < buffer
 
 
 def test_unstable_mirror_images_are_dashed_where_they_coincide():

@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from identification.twins import FREE, curves
-from vibroimpact.engine import hold, orbit
+from vibroimpact.engine import orbit, steady_response
 from vibroimpact.engine.section_map import MODE
 from vibroimpact.identification.branch_response import SteppedRig
 from vibroimpact.identification.curve_residuals import CurveTest
@@ -25,13 +25,18 @@ def shaken(case, frequency=1.0):
 
 def measured(found, point):
     """Excursions of displacement and acceleration of an orbit."""
-    row = np.empty(hold.RESULTS)
+    row = np.empty(steady_response.RESULTS)
     section = found.section
     system = section.family.system(float(point[-1]))
     orbit.measure_orbit(
         system, section.family.phase, point, found.facts.copy(), section.period, MAX_EVENTS, row
     )
-    return np.array([row[hold.U_MOST] - row[hold.U_LEAST], row[hold.A_MOST] - row[hold.A_LEAST]])
+    return np.array(
+        [
+            row[steady_response.U_MOST] - row[steady_response.U_LEAST],
+            row[steady_response.A_MOST] - row[steady_response.A_LEAST],
+        ]
+    )
 
 
 def by_the_implicit_function_theorem(case, frequency, name, state):
@@ -98,7 +103,7 @@ def grazing():
     gap = GRAZED.oscillator.right.gap
     while high - low > 1e-12:
         middle = 0.5 * (low + high)
-        touches = rig.sweep(np.array([middle]))[0][0, hold.U_MOST] > gap
+        touches = rig.sweep(np.array([middle]))[0][0, steady_response.U_MOST] > gap
         low, high = (low, middle) if touches else (middle, high)
     return low
 
@@ -109,7 +114,11 @@ def test_differences_behind_a_grazing(share, name):
     frequency = grazing() * (1.0 + share)
     rig = SteppedRig(vi.Rig(GRAZED.oscillator, shaken(GRAZED)))
     (row,), (state,) = rig.sweep(np.array([frequency]))
-    assert 0.0 < row[hold.U_MOST] - GRAZED.oscillator.right.gap < 0.1 * row[hold.U_MOST]
+    assert (
+        0.0
+        < row[steady_response.U_MOST] - GRAZED.oscillator.right.gap
+        < 0.1 * row[steady_response.U_MOST]
+    )
     exact = by_the_implicit_function_theorem(GRAZED, frequency, name, state[2:4])
     found = by_the_fit(GRAZED, np.array([frequency]), name)
     assert found == pytest.approx(exact, rel=5e-6, abs=1e-8)

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from paper.claim import Claim, Finding, Verdict
 from paper.claims import CLAIMS
 from paper.claims.reasons import REASONS
-from paper.item import Item, Table
 from paper.report import Report, compute, write
+from paper.report_item import Item, Table
 from paper.study import PublishedStudy
 
 _VOID = {"meta", "img", "br", "hr", "link", "input"}

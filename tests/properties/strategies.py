@@ -96,8 +96,8 @@ def motions(
     right = make() if sides != "left" else None
     left = make() if sides != "right" else None
     if isinstance(right, vi.RigidStop) and isinstance(left, vi.RigidStop):
-        room = max(right.gap + left.gap, draw(st.floats(0.05, 1.0)) * swing)
-        left = left.replace(gap=room - right.gap)
+        buffer = max(right.gap + left.gap, draw(st.floats(0.05, 1.0)) * swing)
+        left = left.replace(gap=buffer - right.gap)
     force = draw(st.floats(-0.5, 0.5) | st.just(0.0)) * stiffness * swing if any_shaking else 0.0
     isolator = vi.Isolator(0.0 if slack else stiffness, 2.0 * damping * mass * omega)
     oscillator = vi.Oscillator(mass, isolator, right, left, force)

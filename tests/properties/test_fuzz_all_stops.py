@@ -44,8 +44,8 @@ def random_rig(rng: np.random.Generator) -> tuple[vi.Oscillator, vi.Harmonic]:
 
     right, left = stop(), stop()
     if isinstance(right, vi.RigidStop) and isinstance(left, vi.RigidStop):
-        room = swing * float(rng.choice([1e-6, 1e-3, 0.3]))
-        left = left.replace(gap=max(left.gap, room - right.gap))
+        buffer = swing * float(rng.choice([1e-6, 1e-3, 0.3]))
+        left = left.replace(gap=max(left.gap, buffer - right.gap))
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2 * float(damping_ratio)), right, left)
     return rig, vi.Harmonic(1.0, ratio / math.tau, rng.uniform(0, math.tau))
 

@@ -166,7 +166,7 @@ def width_of_figures(output: OutputOptions) -> Iterator[None]:
         yield
         return
     from vibroimpact.figures import figure_size
-    from vibroimpact.figures.sizes import INCH, inches
+    from vibroimpact.figures.figure_dimensions import INCH, inches
 
     with figure_size(INCH * inches(output.figure_width, "--figure-width")):
         yield

@@ -19,7 +19,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.sections import advance
-from vibroimpact.engine.state import FIRST, copy, load, room, width
+from vibroimpact.engine.state import FIRST, copy, load, state_buffer, width
 from vibroimpact.engine.status import (
     DONE,
     NOT_SETTLED,
@@ -69,7 +69,7 @@ def holds(trap: Vector, state: Vector, parts: int) -> bool:
     " f8[:, ::1], i8[:, ::1], i8[::1])"
 )
 def caught(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -109,11 +109,11 @@ def caught(
     progress : ndarray of int, shape (2,)
         [0] is raised by one a state; all stops when [1] becomes nonzero.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     period = 1.0 / frequency
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     s, c = math.sin(phase), math.cos(phase)
-    here, section = room(), room()
+    here, section = state_buffer(), state_buffer()
     slow = flow.too_much_work(plan, period) != 0
     parts = flow.parts(plan)
     velocity = FIRST + flow.coordinates(plan) // 2

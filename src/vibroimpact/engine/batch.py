@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
-from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.opening import open_entry
 from vibroimpact.engine.recording import write_down
-from vibroimpact.engine.sections import advance, repeated, row_room
-from vibroimpact.engine.state import copy, room, width
+from vibroimpact.engine.sections import advance, repeated, row_buffer
+from vibroimpact.engine.state import copy, state_buffer, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.steady_response import OUTCOME, hold
 
 
 @entry(
@@ -29,7 +29,7 @@ from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS
     " f8[:, ::1], f8[:, ::1], i8[::1])"
 )
 def sweep(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitudes: Vector,
     frequencies: Vector,
@@ -63,9 +63,9 @@ def sweep(
         many cycles of the hold are done.
     """
     options = (tolerance, max_cycles, window, max_events, transient)
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     s, c = math.sin(phase), math.cos(phase)
-    here = room()
+    here = state_buffer()
     copy(pointer(state), here, width(plan))
     for i in range(len(frequencies)):
         if progress[1] != 0:
@@ -87,7 +87,7 @@ def sweep(
     "recorded",
 )
 def trajectory(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -118,12 +118,12 @@ def trajectory(
     next, count, outcome
         The cycle to go on with, the number of events written, a `Status`.
     """
-    start, here, row = int(first), room(), row_room()
+    start, here, row = int(first), state_buffer(), row_buffer()
     at = pointer(state)
-    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    plan, s, c, period, outcome = open_entry(memory, rig, amplitude, frequency, phase, at, here)
     if outcome != DONE:
         return start, 0, outcome
-    found = write_down(
+    summary = write_down(
         plan,
         here,
         repeated(row, s, c, period),
@@ -139,12 +139,12 @@ def trajectory(
         len(events),
     )
     copy(here, at, width(plan))
-    return found
+    return summary
 
 
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], f8, i8)")
 def propagate(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -157,9 +157,9 @@ def propagate(
 
     The arguments are those of `trajectory`; a cycle that is given up leaves its section.
     """
-    here, section = room(), room()
+    here, section = state_buffer(), state_buffer()
     at = pointer(state)
-    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    plan, s, c, period, outcome = open_entry(memory, rig, amplitude, frequency, phase, at, here)
     number = 0.0
     while number < cycles and outcome == DONE:
         length = min(1.0, cycles - number) * period

@@ -35,10 +35,10 @@ SINCE, LENGTH, OWN = range(3)
 """Of a piece: when it begins since the beginning of the stretch, and its length (s); then what the
 flow keeps there."""
 
-series_room = stack(SERIES)
+series_buffer = stack(SERIES)
 CURSOR_SIZE = 15
 """Most numbers of a cursor, by which one mass goes from piece to piece (`pieces.keep_cursor`)."""
-piece_room = stack(OWN + 3 + ORDER + CURSOR_SIZE)
+piece_buffer = stack(OWN + 3 + ORDER + CURSOR_SIZE)
 """Room for them: of one mass three numbers, a series and a cursor (`one_mass.channels`)."""
 
 
@@ -76,6 +76,6 @@ _search = searching(_jet)
 
 
 @kernel
-def widen(series: Vector, order: int, found: Vector) -> None:
+def widen(series: Vector, order: int, span: Vector) -> None:
     """Widen a range, two numbers, by the values of a series on its piece: by exact extremes."""
-    found[0], found[1], _, _ = _search((series, order), 0.0, 1.0, found[0], found[1])
+    span[0], span[1], _, _ = _search((series, order), 0.0, 1.0, span[0], span[1])

@@ -12,7 +12,7 @@ import math
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.sections import advance
-from vibroimpact.engine.state import FIRST, distance, put, room
+from vibroimpact.engine.state import FIRST, distance, put, state_buffer
 from vibroimpact.engine.status import DONE
 
 _APART = 1e-8
@@ -43,7 +43,7 @@ def runs_away(
         Whether it is chaotic; the state is that after so many cycles.
     """
     parts = flow.parts(plan)
-    other, section = room(), room()
+    other, section = state_buffer(), state_buffer()
     apart = _APART * flow.size(plan, state)
     put(plan, state, other)
     velocity = 0

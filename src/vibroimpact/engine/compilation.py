@@ -41,12 +41,12 @@ class Compiled:
         self.__name__ = function.__name__
         self._compiled: dict[type, Callable[..., Any]] = {}
 
-    def of(self, given: Any) -> Callable[..., Any]:
+    def of(self, first: Any) -> Callable[..., Any]:
         """Compile or load for the type of a first argument, if need be."""
-        compiled = self._compiled.get(type(given))
+        compiled = self._compiled.get(type(first))
         if compiled is None:
-            self._prepare(given)
-            compiled = self._compiled[type(given)]
+            self._prepare(first)
+            compiled = self._compiled[type(first)]
         return compiled
 
     def symbol(self, flow: type) -> str:
@@ -54,7 +54,7 @@ class Compiled:
         module = self.function.__module__.partition("engine.")[2].replace(".", "_")
         return f"{flow.__name__}_{module}_{self.__name__}"
 
-    def _prepare(self, given: Any) -> None:
+    def _prepare(self, first: Any) -> None:
         """Load from the library of machine code, else compile or load from the cache.
 
         One process at a time:
@@ -62,7 +62,7 @@ class Compiled:
         two processes that write numba's cache at once can leave a pair of files that do not
         belong together, which crashes whoever loads them; hence the lock between processes.
         """
-        flow = type(given)
+        flow = type(first)
         with jit.compiling:
             if flow in self._compiled:
                 return
@@ -84,7 +84,7 @@ class Compiled:
             from numba.core.sigutils import normalize_signature
 
             arguments, result = normalize_signature(self.signature)  # type: ignore[no-untyped-call]
-            signature = result(numba.typeof(given), *arguments)  # type: ignore[no-untyped-call]
+            signature = result(numba.typeof(first), *arguments)  # type: ignore[no-untyped-call]
             version = cache.own_folder()
             directory = version / flow.__name__
             try:

@@ -16,9 +16,9 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.one_mass.extremes import U_LEAST, U_MOST, notes_room
-from vibroimpact.engine.sections import LASTS, C, S, Schedule, observed, row_room
-from vibroimpact.engine.state import FIRST, load, room
+from vibroimpact.engine.one_mass.extremes import U_LEAST, U_MOST, notes_buffer
+from vibroimpact.engine.sections import LASTS, C, S, Schedule, observed, row_buffer
+from vibroimpact.engine.state import FIRST, load, state_buffer
 from vibroimpact.engine.status import DONE, STOPPED, TOO_MUCH_WORK
 
 # What is found of a run: the notes of `flow.demand`, then where one mass comes to rest, half the
@@ -70,7 +70,7 @@ def _free(follow: Any) -> Any:
         notes: Vector,
         counter: NDArray[Any],
     ) -> int:
-        row = row_room()
+        row = row_buffer()
         row[S], row[C], row[LASTS] = 0.0, 0.0, step
         still = Schedule(row, 1, True)
         whole = int(length / step)
@@ -106,7 +106,7 @@ def _settled(
     what nothing damps goes on round the place where it would rest.
     """
     outcome = DONE
-    notes = notes_room()
+    notes = notes_buffer()
     middle, swing = state[FIRST], math.inf
     for _ in range(blocks):
         flow.nothing(plan, notes)
@@ -127,7 +127,7 @@ def _settled(
     "measured",
 )
 def respond(
-    given: Any,
+    memory: Any,
     rig: Vector,
     record: Vector,
     step: float,
@@ -173,17 +173,17 @@ def respond(
         Written. What is known of a run that was given up is not kept.
     """
     before, count = counter[0], len(lines)
-    here, known = room(), out.shape[1] - BEHIND
+    here, known = state_buffer(), out.shape[1] - BEHIND
     for k in range(len(scales)):
-        found = out[k]
-        notes = pointer(found)
-        for i in range(len(found)):
-            found[i] = math.nan
+        row = out[k]
+        notes = pointer(row)
+        for i in range(len(row)):
+            row[i] = math.nan
         if counter[1] != 0:
-            found[known + 2] = STOPPED
+            row[known + 2] = STOPPED
             continue
         scale = scales[k]
-        plan = planned(given, rig)
+        plan = planned(memory, rig)
         most, steepest = abs(scale * record[0]), 0.0
         for i in range(count):
             begins, ends = scale * record[i], scale * record[i + 1]
@@ -192,7 +192,7 @@ def respond(
             steepest = max(steepest, abs(lines[i, C]))
         flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
         if flow.too_much_work(plan, step) != 0:
-            found[known + 2] = TOO_MUCH_WORK
+            row[known + 2] = TOO_MUCH_WORK
             counter[0] = before + (k + 1) * count
             continue
         load(plan, pointer(state), here, 0.0, 0.0)
@@ -207,9 +207,9 @@ def respond(
                 plan, here, step, block, blocks, size, max_events, counter
             )
         if outcome == DONE:
-            found[known], found[known + 1] = middle, swing
+            row[known], row[known + 1] = middle, swing
         else:
-            for i in range(len(found)):
-                found[i] = math.nan
-        found[known + 2] = outcome
+            for i in range(len(row)):
+                row[i] = math.nan
+        row[known + 2] = outcome
         counter[0] = before + (k + 1) * count

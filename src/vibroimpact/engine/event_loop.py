@@ -13,7 +13,7 @@ from vibroimpact.engine import state as states
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.observers.phases import note
-from vibroimpact.engine.state import EVENT, FRESH, SETTLING, STEP, T, room, stretch_room
+from vibroimpact.engine.state import EVENT, FRESH, SETTLING, STEP, T, state_buffer, stretch_buffer
 
 
 def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
@@ -32,7 +32,7 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
         max_events: int,
         *notes: Vector,
     ) -> int:
-        here, there, ended = room(), room(), stretch_room()
+        here, there, ended = state_buffer(), state_buffer(), stretch_buffer()
         load(plan, state, here, s, c)
         t = 0.0
         events = 0

@@ -21,7 +21,7 @@ from vibroimpact.engine.fixed_point import DYING, newton_iterate
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.sections import advance
-from vibroimpact.engine.state import FIRST, LARGEST, put, room
+from vibroimpact.engine.state import FIRST, LARGEST, put, state_buffer
 from vibroimpact.engine.status import DONE
 
 _HELD = 3
@@ -44,7 +44,7 @@ _PURSUED = 48
 _WAITS = 8
 """Cycles that a motion is followed behind a way that led nowhere."""
 
-pursuit_room = stack(ROOM)
+pursuit_buffer = stack(ROOM)
 
 
 @kernel
@@ -153,11 +153,11 @@ def extrapolate(
 
     Returns
     -------
-    found, plain, cycles
+    has_converged, plain, cycles
         Whether it was reached to the tolerance, and whether it is plainly chaotic; if not found,
         the state is one that following gave.
     """
-    held, kept, section = pursuit_room(), room(), room()
+    held, kept, section = pursuit_buffer(), state_buffer(), state_buffer()
     parts = flow.parts(plan)
     put(plan, state, kept)  # what following gave, before going ahead
     left = math.inf  # size of the last change then
@@ -223,12 +223,12 @@ def extrapolate(
                 state[FIRST + i] = held[_HELD * 2 * parts + i]
             flow.place(plan, state)
         if way <= _CLOSE * scale:
-            used, found = newton_iterate(
+            used, has_converged = newton_iterate(
                 plan, state, s, c, period, units, tolerance, scale, max_events
             )
-            if not found:
+            if not has_converged:
                 put(plan, kept, state)
-            return found, False, k + used
+            return has_converged, False, k + used
     if ahead:
         put(plan, kept, state)
     return False, False, k

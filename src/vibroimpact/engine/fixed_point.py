@@ -11,7 +11,7 @@ import math
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.matrix import radius, solve
-from vibroimpact.engine.state import FIRST, parts_room, put, room, square_room
+from vibroimpact.engine.state import FIRST, parts_buffer, put, square_buffer, state_buffer
 
 DYING = 0.999
 """A disturbance that dies out more slowly in a cycle may be one that lives on: it is followed."""
@@ -45,12 +45,12 @@ def newton_iterate(
 
     Returns
     -------
-    cycles, found
+    cycles, has_converged
         The derivative is that of small disturbances, and is kept from step to step.
     """
     parts = flow.parts(plan)
-    matrix, other, image = square_room(), square_room(), parts_room()
-    after, begun = room(), room()
+    matrix, other, image = square_buffer(), square_buffer(), parts_buffer()
+    after, begun = state_buffer(), state_buffer()
     put(plan, state, after)
     if flow.cycle(plan, after, s, c, period, max_events) > max_events:
         return 1, False
@@ -67,9 +67,9 @@ def newton_iterate(
         for i in range(parts):
             grown = (begun[FIRST + i] - image[i]) / by if by != 0.0 else 0.0
             matrix[parts * i + j] = grown * units[i] / units[j]
-    step = parts_room()
+    step = parts_buffer()
     last, change = math.inf, math.inf
-    found = False
+    has_converged = False
     for _ in range(_STEPS):
         for i in range(parts):
             step[i] = units[i] * (image[i] - state[FIRST + i])
@@ -83,13 +83,13 @@ def newton_iterate(
         if change > _FAR * scale:
             return cycles, False
         if not change < 0.5 * last:  # nothing is left but rounding
-            found = last <= max(tolerance, _ROUGH) * scale
+            has_converged = last <= max(tolerance, _ROUGH) * scale
             break
         for i in range(parts):
             state[FIRST + i] += step[i] / units[i]
         flow.place(plan, state)
-        found = change <= _FINE * scale
-        if found:
+        has_converged = change <= _FINE * scale
+        if has_converged:
             break
         put(plan, state, after)
         cycles += 1
@@ -97,4 +97,4 @@ def newton_iterate(
             return cycles, False
         for i in range(parts):
             image[i] = after[FIRST + i]
-    return cycles, found and radius(matrix, other, parts) < DYING
+    return cycles, has_converged and radius(matrix, other, parts) < DYING

@@ -92,11 +92,11 @@ def _function(group: str, returns: Any, *arguments: Any) -> Callable[[F], F]:
 def _indirect(names: str, declared: Any, index: int) -> Any:
     """An intrinsic that calls the function at a place of the table of its first argument."""
 
-    def typed(*given: Any) -> tuple[Any, Callable[..., Any]]:
+    def typed(*argument_types: Any) -> tuple[Any, Callable[..., Any]]:
         # Arrays stand for their memory, and a plan whose type names its flow for a plan.
         taken = [
             one if isinstance(one, types.Array | types.CPointer) else kind
-            for one, kind in zip(given, declared.args, strict=True)
+            for one, kind in zip(argument_types, declared.args, strict=True)
         ]
 
         def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -116,14 +116,14 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
             # As numba calls its own: behind room for the result and for an exception, which no
             # kernel raises.
             result = conv.get_return_type(declared.return_type).pointee
-            found = cgutils.alloca_once(builder, result)  # type: ignore[no-untyped-call]
+            slot = cgutils.alloca_once(builder, result)  # type: ignore[no-untyped-call]
             raised = cgutils.alloca_once(  # type: ignore[no-untyped-call]
                 builder, ir.PointerType(excinfo_t)
             )
-            builder.call(function, [found, raised, *passed])
+            builder.call(function, [slot, raised, *passed])
             if declared.return_type == types.void:
                 return context.get_dummy_value()
-            return builder.load(found, typ=result)
+            return builder.load(slot, typ=result)
 
         return declared.return_type(*taken), build
 
@@ -141,22 +141,22 @@ def filling(
     """
 
     @intrinsic
-    def fill(typing: Any, given: Any, table: Any) -> Any:
-        found = {}
-        module = module_of(given)
+    def fill(typing: Any, storage: Any, table: Any) -> Any:
+        overloads = {}
+        module = module_of(storage)
         for name in GROUPS[group]:
             kernel = getattr(module, name)
             declared = SIGNATURES[name]
-            arguments = (plan_type(given), *declared.args[1:])
+            arguments = (plan_type(storage), *declared.args[1:])
             types.Dispatcher(kernel).get_call_type(typing, arguments, {})  # compiles it
-            found[name] = kernel.overloads[arguments]
-            returned = types.unliteral(found[name].signature.return_type)  # type: ignore[no-untyped-call]
+            overloads[name] = kernel.overloads[arguments]
+            returned = types.unliteral(overloads[name].signature.return_type)  # type: ignore[no-untyped-call]
             if returned != declared.return_type:
                 raise TypeError(f"{name} returns {returned} instead of {declared.return_type}")
 
         def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             array = context.make_array(signature.args[1])(context, builder, args[1])
-            for name, kernel in found.items():
+            for name, kernel in overloads.items():
                 code, described = _compiled_code(kernel)
                 context.active_code_library.add_linking_library(code)
                 function = context.declare_function(builder.module, described)
@@ -165,7 +165,7 @@ def filling(
                 builder.store(builder.ptrtoint(function, _WORD), place)
             return context.get_dummy_value()
 
-        return types.void(given, table), build
+        return types.void(storage, table), build
 
     return fill
 

@@ -174,7 +174,7 @@ def _flow(rig: Vector) -> type:
     return AnyStops if rigid or overlapping else Apart
 
 
-def _room(size: int) -> Vector:
+def _aligned_memory(size: int) -> Vector:
     """Memory that begins a cache line: vectors of eight numbers within it then cross none.
 
     The word before it is for the address of the flow's functions.
@@ -188,15 +188,15 @@ def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if flow in SEVERAL_MASSES:
-        memory = _room(int(rig[assembly.LENGTH_OF_PLAN]))
+        memory = _aligned_memory(int(rig[assembly.LENGTH_OF_PLAN]))
         write_plan(rig, memory)
         emitted.prepare(memory, rig)
         return flow(memory)
     if rig[par.FORCING] != par.SEVERAL:
-        memory = _room(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
+        memory = _aligned_memory(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
     else:
         weights = rig[par.WEIGHTS :]
-        memory = _room(several.room(len(weights) // 2))
+        memory = _aligned_memory(several.plan_length(len(weights) // 2))
         memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
     if flow in _LAWS:
         kernels.prepare(memory, rig)
@@ -239,30 +239,30 @@ register_model(PlanType)(models.PointerModel)
 
 
 @intrinsic
-def _plan(typing: Any, given: Any) -> Any:
+def _plan(typing: Any, storage: Any) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         array = builder.extract_value(args[0], 0)
         return cgutils.create_struct_proxy(signature.args[0][0])(  # type: ignore[no-untyped-call]
             context, builder, value=array
         ).data
 
-    return PlanType(given.instance_class)(given), build
+    return PlanType(storage.instance_class)(storage), build
 
 
-def planned(given: Any, rig: Vector) -> Vector:
+def planned(storage: Any, rig: Vector) -> Vector:
     """The plan in this memory, with the numbers of a rig; its tables are still to be built."""
-    plan = given if isinstance(given, np.ndarray) else given.memory
+    plan = storage if isinstance(storage, np.ndarray) else storage.memory
     for i in range(par.SIZE):
         plan[i] = rig[i]
     return plan
 
 
 @overload(planned, jit_options=CHOSEN)  # type: ignore[arg-type]
-def _planned(given: Any, rig: Any) -> Any:
-    of: Any = pointer if isinstance(given, types.Array) else _plan
+def _planned(storage: Any, rig: Any) -> Any:
+    of: Any = pointer if isinstance(storage, types.Array) else _plan
 
-    def implementation(given: Any, rig: Any) -> Any:
-        plan: Any = of(given)
+    def implementation(storage: Any, rig: Any) -> Any:
+        plan: Any = of(storage)
         for i in range(par.SIZE):
             plan[i] = rig[i]
         return plan

@@ -21,8 +21,8 @@ from vibroimpact.engine.one_mass import table as one_mass
 flow.FLOWS += [one_mass, several_masses, curved_masses]
 
 
-def _plan_type(given: Any) -> Any:
-    kind = given.instance_class
+def _plan_type(storage_type: Any) -> Any:
+    kind = storage_type.instance_class
     return flow.P if kind in SEVERAL_MASSES else PlanType(kind)
 
 
@@ -30,8 +30,8 @@ def _module(kind: type) -> ModuleType:
     return flow.FLOWS[1 + SEVERAL_MASSES.index(kind) if kind in SEVERAL_MASSES else 0]
 
 
-def _module_of(given: Any) -> ModuleType:
-    return _module(given.instance_class)
+def _module_of(storage_type: Any) -> ModuleType:
+    return _module(storage_type.instance_class)
 
 
 _fill_motion = flow.filling(_plan_type, _module_of, "motion")
@@ -40,20 +40,20 @@ _fill_disturbed = flow.filling(_plan_type, _module_of, "disturbed")
 _fill_measured = flow.filling(_plan_type, _module_of, "measured")
 
 
-def _motion(given: Any, table: Any) -> None:
-    _fill_motion(given, table)
+def _motion(storage: Any, table: Any) -> None:
+    _fill_motion(storage, table)
 
 
-def _recorded(given: Any, table: Any) -> None:
-    _fill_recorded(given, table)
+def _recorded(storage: Any, table: Any) -> None:
+    _fill_recorded(storage, table)
 
 
-def _disturbed(given: Any, table: Any) -> None:
-    _fill_disturbed(given, table)
+def _disturbed(storage: Any, table: Any) -> None:
+    _fill_disturbed(storage, table)
 
 
-def _measured(given: Any, table: Any) -> None:
-    _fill_measured(given, table)
+def _measured(storage: Any, table: Any) -> None:
+    _fill_measured(storage, table)
 
 
 GROUPS = {
@@ -67,15 +67,15 @@ _filled: set[tuple[type, str]] = set()
 
 def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     """Memory for the plan of a rig, whose flow has these groups of functions."""
-    given = flow_of(rig)
-    memory: Vector = given.memory
-    kind = type(given)
+    storage = flow_of(rig)
+    memory: Vector = storage.memory
+    kind = type(storage)
     if PLAIN:
         return memory
     table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))
     for group in groups:
         if (kind, group) not in _filled:
-            GROUPS[group].of(given)(given, table)
+            GROUPS[group].of(storage)(storage, table)
             _filled.add((kind, group))
     ctypes.c_int64.from_address(memory.ctypes.data - 8).value = table.ctypes.data
     return memory

@@ -60,16 +60,16 @@ def inlined(function: F) -> F:
     return _within(njit(**WITHIN, forceinline=True)(function))  # type: ignore[no-any-return]
 
 
-APART: set[str] = set()
-"""Kernels that are not merged into those that call them (see `apart`): a module and a name each."""
+NOT_INLINED: set[str] = set()
+"""Kernels that are not merged into their callers (see `not_inlined`): a module and a name each."""
 
 
-def apart(function: F) -> F:
+def not_inlined(function: F) -> F:
     """As `kernel`, but never merged into its callers: for what a hot loop seldom does.
 
     Merged, it takes the loop's registers, and parts of it are computed in advance for nothing.
     """
-    APART.add(f"{function.__module__}.{function.__qualname__}")
+    NOT_INLINED.add(f"{function.__module__}.{function.__qualname__}")
     # What an inlined function calls would be inlined, too, unless it says otherwise.
     return _within(njit(**WITHIN, forceinline=False)(function))  # type: ignore[no-any-return]
 

@@ -31,11 +31,11 @@ _METHODS: tuple[tuple[Any, str], ...] = (
 )
 
 
-def keep_apart(module: Any) -> None:
-    """Forbid to merge the kernels that are marked so (`jit.apart`) into their callers."""
+def forbid_inlining(module: Any) -> None:
+    """Forbid to merge the kernels that are marked so (`jit.not_inlined`) into their callers."""
     marks = tuple(
         f"_Z{mangle_identifier(name)[:-1]}B"  # type: ignore[no-untyped-call]
-        for name in jit.APART
+        for name in jit.NOT_INLINED
     )
     for function in module.functions:
         if not function.is_declaration and function.name.startswith(marks):
@@ -63,7 +63,7 @@ def only(name: str) -> Iterator[None]:
 
     def optimise_module(self: Any) -> None:
         if not linked(self.name):
-            keep_apart(self._final_module)
+            forbid_inlining(self._final_module)
             optimise(self)
             optimise(self)  # again, what has been merged: once leaves curved laws a fifth slower
 
@@ -80,8 +80,8 @@ def only(name: str) -> Iterator[None]:
             place(self, symbol, env)
 
     try:
-        told = (add_module, optimise_module, finalize, get_pointer, set_env)
-        for key, method in zip(own, told, strict=True):
+        replacements = (add_module, optimise_module, finalize, get_pointer, set_env)
+        for key, method in zip(own, replacements, strict=True):
             setattr(*key, method)
         yield
     finally:

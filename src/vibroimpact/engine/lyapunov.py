@@ -16,10 +16,10 @@ from vibroimpact.engine.state import (
     MODE,
     copy,
     finite,
-    notes_room,
-    parts_room,
+    notes_buffer,
+    parts_buffer,
     put,
-    room,
+    state_buffer,
     width,
 )
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS
@@ -38,7 +38,7 @@ _carried = event_loop.observed(observers.grow)
     "disturbed",
 )
 def growth(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -81,13 +81,13 @@ def growth(
     outcome, next
         A `Status`, and the cycle to go on with.
     """
-    here, section, notes = room(), room(), notes_room()
+    here, section, notes = state_buffer(), state_buffer(), notes_buffer()
     at = pointer(state)
-    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    plan, s, c, period, outcome = open_entry(memory, rig, amplitude, frequency, phase, at, here)
     parts = flow.parts(plan)
     count = out.shape[1] - 1 - parts
-    weights, of_section, logarithms = parts_room(), parts_room(), parts_room()
-    q, work = pointer(disturbances), observers.work_room()
+    weights, of_section, logarithms = parts_buffer(), parts_buffer(), parts_buffer()
+    q, work = pointer(disturbances), observers.work_buffer()
     observers.weigh(plan, weights)
     rows = observers.rows_of(plan, q, work, weights, logarithms, count)
     mode = here[MODE]
@@ -132,7 +132,7 @@ def growth(
 
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, i8, f8[:, ::1], f8[::1])", "disturbed")
 def monodromy(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -161,9 +161,9 @@ def monodromy(
     outcome
         A `Status`.
     """
-    here, notes = room(), notes_room()
+    here, notes = state_buffer(), notes_buffer()
     at, q = pointer(state), pointer(columns)
-    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    plan, s, c, period, outcome = open_entry(memory, rig, amplitude, frequency, phase, at, here)
     flow.unit_disturbances(plan, here, q)
     damping[0] = 0.0
     done = 0

@@ -41,7 +41,7 @@ def stack(size: int) -> Callable[[], Vector]:
         return lambda: np.empty(size)
 
     @intrinsic
-    def room(typing: Any) -> Any:
+    def buffer(typing: Any) -> Any:
         def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             array = cgutils.alloca_once(  # type: ignore[no-untyped-call]
                 builder, ir.ArrayType(ir.DoubleType(), size)
@@ -50,7 +50,7 @@ def stack(size: int) -> Callable[[], Vector]:
 
         return _DOUBLES(), build
 
-    return room  # type: ignore[return-value]
+    return buffer  # type: ignore[return-value]
 
 
 workspace = stack(TERMS)

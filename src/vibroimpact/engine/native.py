@@ -147,27 +147,27 @@ def function(symbol: str, signature: str, first: str) -> Callable[..., Any]:
     first
         The first argument, or of a tuple its only field.
     """
-    found = _ARGUMENT.finditer(signature)
-    result = next(found)
-    kinds = [first, *(one.group() for one in found)]
+    matches = _ARGUMENT.finditer(signature)
+    result = next(matches)
+    kinds = [first, *(one.group() for one in matches)]
     flat: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
     for kind in kinds:
         flat += [_NUMBERS[kind]] if kind in _NUMBERS else _array_words(kind)
     call = getattr(_loaded(), symbol)
     call.argtypes, call.restype = flat, ctypes.c_int32
     count = int(result.group(1) or 0)
-    room = ctypes.c_int64 * (count or 1)
+    buffer = ctypes.c_int64 * (count or 1)
     if result.group(2) == "f8":
-        room = ctypes.c_double * 1  # type: ignore[assignment]
+        buffer = ctypes.c_double * 1  # type: ignore[assignment]
     checks = [_array if kind not in _NUMBERS else _number for kind in kinds]
     types = [np.dtype(kind.partition("[")[0]) if kind not in _NUMBERS else None for kind in kinds]
 
     def called(*arguments: Any) -> Any:
-        returned, raised = room(), ctypes.c_void_p()
+        returned, raised = buffer(), ctypes.c_void_p()
         one = arguments[0]
-        given = (*one, *arguments[1:]) if isinstance(one, tuple) else arguments
+        values = (*one, *arguments[1:]) if isinstance(one, tuple) else arguments
         words: list[Any] = []
-        for argument, check, kind in zip(given, checks, types, strict=True):
+        for argument, check, kind in zip(values, checks, types, strict=True):
             check(words, argument, kind)
         status = call(ctypes.byref(returned), ctypes.byref(raised), *words)
         if status not in (0, -2):  # -2: it returns nothing

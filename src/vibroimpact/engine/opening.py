@@ -14,7 +14,7 @@ from vibroimpact.engine.status import DONE, TOO_MUCH_WORK
 
 @kernel
 def open_entry(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -29,7 +29,7 @@ def open_entry(
     plan, s, c, period, outcome
         The plan, the clock at the section, the forcing's period (s), and `TOO_MUCH_WORK` or `DONE`.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     period = 1.0 / frequency
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     s, c = math.sin(phase), math.cos(phase)

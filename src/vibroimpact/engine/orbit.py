@@ -8,7 +8,6 @@ from typing import Any
 from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
-from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.matrix import solve
 from vibroimpact.engine.memory import pointer, stack
@@ -18,13 +17,14 @@ from vibroimpact.engine.section_map import (
     RESIDUAL,
     STEPS,
     begin_at,
-    facts_room,
-    point_room,
+    facts_buffer,
+    point_buffer,
     section_map,
     system_plan,
 )
-from vibroimpact.engine.state import LARGEST, copy, notes_room, room, square_room
+from vibroimpact.engine.state import LARGEST, copy, notes_buffer, square_buffer, state_buffer
 from vibroimpact.engine.status import DONE, NOT_FINITE, NOT_SETTLED
+from vibroimpact.engine.steady_response import measure
 
 _NEWTON_STEPS = 16
 _GOOD = 1e-14  # residual over the scale at which nothing is left to gain
@@ -32,7 +32,7 @@ _ROUNDING = 2.0**-51
 _DIFFERENCE = 1e-7  # of the parameter's scale; less where impacts make the map steep
 _FARTHEST = 0.5  # scaled length of a Newton step
 
-matrix_room = stack((LARGEST + 1) * (LARGEST + 1))
+matrix_buffer = stack((LARGEST + 1) * (LARGEST + 1))
 
 
 Line = tuple[Vector, Vector, float, int, bool, int, Vector]
@@ -50,9 +50,9 @@ def _newton(
     slope: Vector,
 ) -> int:
     base, direction, phase, count, mirror, max_events, scale = line
-    matrix = matrix_room()
-    image, right = point_room(), point_room()
-    aim, found = point_room(), point_room()
+    matrix = matrix_buffer()
+    image, right = point_buffer(), point_buffer()
+    aim, best_point = point_buffer(), point_buffer()
     parts = flow.parts(plan)  # behind which a point has its parameter
     size = parts + 1
     copy(point, aim, size)
@@ -73,16 +73,16 @@ def _newton(
             residual = max(residual, abs(image[i] - point[i]) / scale[i])
         if residual < best:
             best = residual
-            copy(point, found, size)
+            copy(point, best_point, size)
         elif last:
             # Rounding lets it come no closer.
-            copy(found, point, size)
+            copy(best_point, point, size)
         if last or residual <= _GOOD:
             break
         idle = facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12
         if idle or facts[STEPS] >= _NEWTON_STEPS:
             last = True
-            copy(found, point, size)
+            copy(best_point, point, size)
             continue
         _slope(plan, line, point, facts, image, columns, slope)
         for i in range(parts):
@@ -152,8 +152,8 @@ def _slope(
     for i in range(flow.coordinates(plan)):
         steep = max(steep, abs(columns[i * parts + i]))
     size, shown = parts + 1, CONTACTS + flow.stops(plan)
-    ignored = square_room()
-    other, trial, seen = point_room(), point_room(), facts_room()
+    ignored = square_buffer()
+    other, trial, seen = point_buffer(), point_buffer(), facts_buffer()
     for sign in range(2):
         copy(point, trial, size)
         copy(facts, seen, shown)
@@ -178,7 +178,7 @@ def _slope(
     "disturbed",
 )
 def correct(
-    given: Any,
+    memory: Any,
     rig: Vector,
     base: Vector,
     direction: Vector,
@@ -226,7 +226,7 @@ def correct(
         DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale and what rounding explains),
         or what went wrong.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
     return _newton(
         plan,
@@ -245,7 +245,7 @@ def correct(
     "disturbed",
 )
 def evaluate(
-    given: Any,
+    memory: Any,
     rig: Vector,
     base: Vector,
     direction: Vector,
@@ -264,22 +264,22 @@ def evaluate(
 
     The state is moved to where it can be; `image`, shape (parts,), receives P.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
-    at, seen, found, q = pointer(point), pointer(facts), pointer(image), pointer(columns)
+    at, seen, end_point, q = pointer(point), pointer(facts), pointer(image), pointer(columns)
     parts = flow.parts(plan)
     _, frequency = system_plan(line[0], line[1], at[parts], plan)
-    outcome = section_map(plan, frequency, phase, count, mirror, max_events, at, seen, found, q)
+    outcome = section_map(plan, frequency, phase, count, mirror, max_events, at, seen, end_point, q)
     for i in range(parts):
-        seen[RESIDUAL] = max(seen[RESIDUAL], abs(found[i] - at[i]) / scale[i])
+        seen[RESIDUAL] = max(seen[RESIDUAL], abs(end_point[i] - at[i]) / scale[i])
     if outcome == DONE:
-        _slope(plan, line, at, seen, found, q, pointer(slope))
+        _slope(plan, line, at, seen, end_point, q, pointer(slope))
     return outcome
 
 
 @entry("i8(f8[::1], f8, f8[::1], f8[::1], i8, i8, f8[::1])")
 def measure_orbit(
-    given: Any,
+    memory: Any,
     system: Vector,
     phase: float,
     point: Vector,
@@ -289,10 +289,10 @@ def measure_orbit(
     result: Vector,
 ) -> int:
     """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
-    plan = planned(given, system)
+    plan = planned(memory, system)
     frequency = system[flow.numbers(plan) + 1]
     flow.build(plan, system[flow.numbers(plan)], 2.0 * math.pi * frequency)
-    state = room()
+    state = state_buffer()
     begin_at(plan, state, facts[MODE], phase, pointer(point))
     s, c = math.sin(phase), math.cos(phase)
     period = 1.0 / frequency
@@ -301,7 +301,7 @@ def measure_orbit(
 
 @entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])", "disturbed")
 def grazing_margin(
-    given: Any,
+    memory: Any,
     system: Vector,
     phase: float,
     cycles: int,
@@ -331,13 +331,13 @@ def grazing_margin(
         depth at which it turns back in a contact, or would without a rigid stop. The one of least
         size; NaN if given up.
     """
-    plan = planned(given, system)
+    plan = planned(memory, system)
     frequency = system[flow.numbers(plan) + 1]
     flow.build(plan, system[flow.numbers(plan)], 2.0 * math.pi * frequency)
     period = 1.0 / frequency
     if flow.too_much_work(plan, period) != 0:
         return math.nan
-    state, notes = room(), notes_room()
+    state, notes = state_buffer(), notes_buffer()
     begin_at(plan, state, facts[MODE], phase, pointer(point))
     s, c = math.sin(phase), math.cos(phase)
     notes[0] = math.inf

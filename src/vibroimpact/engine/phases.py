@@ -23,7 +23,7 @@ from vibroimpact.engine.observers.phases import (
     save_phase,
 )
 from vibroimpact.engine.sections import FULL, LASTS, C, Leg, S, Schedule, loop
-from vibroimpact.engine.state import copy, load, put, room, width
+from vibroimpact.engine.state import copy, load, put, state_buffer, width
 from vibroimpact.engine.status import TOO_MUCH_WORK
 
 
@@ -74,7 +74,7 @@ _follow_integrated = loop(_integrated)
     "measured",
 )
 def measure_motion(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     omega: float,
@@ -125,9 +125,9 @@ def measure_motion(
     next, outcome
         The section to go on with, and a `Status`.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, omega)
-    here, log = room(), Log(pointer(notes), pointer(lines), pointer(out))
+    here, log = state_buffer(), Log(pointer(notes), pointer(lines), pointer(out))
     load(plan, pointer(state), here, 0.0, 0.0)
     schedule = Schedule(pointer(sections), len(sections), changes != 0)
     if flow.too_much_work(plan, schedule.rows[LASTS]) != 0:

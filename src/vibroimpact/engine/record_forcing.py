@@ -14,7 +14,7 @@ from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.recording import write_down
 from vibroimpact.engine.sections import Schedule
-from vibroimpact.engine.state import copy, load, room, width
+from vibroimpact.engine.state import copy, load, state_buffer, width
 from vibroimpact.engine.status import TOO_MUCH_WORK
 
 BEGINS, SLOPE, LASTS = sections.S, sections.C, sections.LASTS
@@ -27,7 +27,7 @@ LINE = sections.ROW
     "recorded",
 )
 def follow(
-    given: Any,
+    memory: Any,
     rig: Vector,
     most: float,
     steepest: float,
@@ -68,13 +68,13 @@ def follow(
     next, count, outcome
         The line to go on with, the number of events written, a `Status`.
     """
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
     if flow.too_much_work(plan, interval) != 0:
         return first, 0, TOO_MUCH_WORK
-    here = room()
+    here = state_buffer()
     load(plan, pointer(state), here, 0.0, 0.0)
-    found = write_down(
+    summary = write_down(
         plan,
         here,
         Schedule(pointer(lines), len(lines), True),
@@ -90,4 +90,4 @@ def follow(
         len(events),
     )
     copy(here, pointer(state), width(plan))
-    return found
+    return summary

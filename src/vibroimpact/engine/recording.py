@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
+from vibroimpact.engine.observers.record import WRITTEN, note_buffer, start_notes
 from vibroimpact.engine.sections import FULL, Leg, Schedule, loop
 from vibroimpact.engine.state import put
 from vibroimpact.engine.status import DONE
@@ -87,7 +87,7 @@ def write_down(
     next, count, outcome
         The section to go on with, the number of events written, a `Status`.
     """
-    notes = note_room()
+    notes = note_buffer()
     notes[WRITTEN] = 0.0
     step = interval / samples if samples else 0.0
     listed = samples != 0 or capacity > max_events + 1

@@ -37,7 +37,7 @@ _RECENT = 0.2  # share of the cycles so far in which it must have come twice as 
 _NOW, _BEFORE, _RATIO, _RATIO_BEFORE = (i * (LONGEST + 1) for i in range(4))
 _SCALE, _SIZE, _SIZE_BEFORE, _BEST, _SINCE, _PAST = range(4 * (LONGEST + 1), 4 * (LONGEST + 1) + 6)
 
-recurrence_room = stack(_PAST + LONGEST * (FIRST + LARGEST))
+recurrence_buffer = stack(_PAST + LONGEST * (FIRST + LARGEST))
 
 
 @kernel

@@ -19,9 +19,9 @@ from vibroimpact.engine.state import (
     HITS,
     LARGEST,
     finite,
-    notes_room,
-    parts_room,
-    room,
+    notes_buffer,
+    parts_buffer,
+    state_buffer,
     wind,
 )
 from vibroimpact.engine.state import MODE as STATE_MODE
@@ -39,8 +39,8 @@ SYSTEM = par.SIZE + 2
 # Newton steps taken, the integral of the damping, and the contacts begun at each stop.
 MODE, RESIDUAL, STEPS, DAMPING, CONTACTS = range(5)
 
-facts_room = stack(CONTACTS + LARGEST)
-point_room = stack(LARGEST + 1)
+facts_buffer = stack(CONTACTS + LARGEST)
+point_buffer = stack(LARGEST + 1)
 
 
 @kernel
@@ -87,7 +87,7 @@ def section_map(
         if not abs(point[i]) < 1e200:
             return NOT_FINITE
     s, c = math.sin(phase), math.cos(phase)
-    state, here, notes = room(), parts_room(), notes_room()
+    state, here, notes = state_buffer(), parts_buffer(), notes_buffer()
     begin_at(plan, state, facts[MODE], phase, point)
     # The deformations and what the isolator remembers, where they can be.
     flow.point(plan, state, here)

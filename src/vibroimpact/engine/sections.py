@@ -15,14 +15,14 @@ from typing import Any, NamedTuple
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.state import begin_again, finite, put, room, wind
+from vibroimpact.engine.state import begin_again, finite, put, state_buffer, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS
 
 S, C, LASTS = range(3)
 """Columns of a schedule."""
 ROW = 3
 
-row_room = stack(ROW)
+row_buffer = stack(ROW)
 """Room for a schedule of a single row."""
 
 FULL = -1
@@ -99,7 +99,7 @@ def loop(watch: Any) -> Callable[..., tuple[int, int]]:
         notes: Any,
         progress: Any,
     ) -> tuple[int, int]:
-        section = room()
+        section = state_buffer()
         number, outcome = first, DONE
         i = first % schedule.size
         while number < last and outcome == DONE:

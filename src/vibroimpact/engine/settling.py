@@ -19,13 +19,13 @@ from vibroimpact.engine.recurrence import (
     BLOCK,
     closes_in,
     compare,
-    recurrence_room,
+    recurrence_buffer,
     remember,
     start,
     verdict,
 )
 from vibroimpact.engine.sections import advance
-from vibroimpact.engine.state import parts_room, room
+from vibroimpact.engine.state import parts_buffer, state_buffer
 from vibroimpact.engine.status import DONE, NOT_SETTLED, STOPPED
 
 PATIENT = math.inf
@@ -59,14 +59,14 @@ def settle(
     outcome, n, cycles
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
-    units, section, known = parts_room(), room(), recurrence_room()
+    units, section, known = parts_buffer(), state_buffer(), recurrence_buffer()
     flow.units(plan, units)
     asked = max(transient / period, _SOON)
-    found, plain, gone = extrapolate(
+    has_converged, plain, gone = extrapolate(
         plan, state, s, c, period, units, tolerance, max_cycles, max_events, asked
     )
-    if found or plain:
-        return (DONE, 1, gone) if found else (NOT_SETTLED, 0, gone)
+    if has_converged or plain:
+        return (DONE, 1, gone) if has_converged else (NOT_SETTLED, 0, gone)
     asked = PATIENT if gone > asked else asked
     start(known)
     k = 0

@@ -9,8 +9,8 @@ import math
 from typing import Any
 
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.plain_entries import single
 from vibroimpact.engine.ramp_response import largest, moved, responses
+from vibroimpact.engine.rigless_entry import rigless_entry
 
 # What is found of an oscillator: the largest |u|, |u′|/ω and |u″ + A_t|/ω².
 DISPLACEMENT, VELOCITY, ACCELERATION = range(3)
@@ -125,9 +125,9 @@ def _peaks(record: Vector, step: float, omega: float, zeta: float, counter: Any)
     return most
 
 
-@single("void(f8[::1], f8, f8[::1], f8[::1], i8[::1], f8[:, ::1])")
+@rigless_entry("void(f8[::1], f8, f8[::1], f8[::1], i8[::1], f8[:, ::1])")
 def respond(
-    given: Any,
+    placeholder: Any,
     record: Vector,
     step: float,
     omega: Vector,

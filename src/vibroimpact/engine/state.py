@@ -47,7 +47,7 @@ class Parts(NamedTuple):
 
     @property
     def age(self) -> int:
-        """Where the age of the mode stands, behind them."""
+        """Where the age of the mode stands, after them."""
         return self.first + self.total
 
     @property
@@ -91,17 +91,17 @@ stop."""
 MEASURES = 3 * LARGEST + 8
 """Largest number of notes of `flow.extremes`, and of what `flow.measured` writes."""
 
-stretch_room = stack(4)
+stretch_buffer = stack(4)
 """Room for them."""
-room = stack(FIRST + MOST_PARTS + BEHIND)
+state_buffer = stack(FIRST + MOST_PARTS + BEHIND)
 """Room for a state."""
-parts_room = stack(LARGEST)
+parts_buffer = stack(LARGEST)
 """Room for a number for each part."""
-square_room = stack(LARGEST * LARGEST)
+square_buffer = stack(LARGEST * LARGEST)
 """Room for as many for each."""
-notes_room = stack(LARGEST)
+notes_buffer = stack(LARGEST)
 """Room for notes of `flow.tangent`."""
-measures_room = stack(MEASURES)
+measures_buffer = stack(MEASURES)
 """Room for notes of `flow.extremes`."""
 
 
@@ -147,10 +147,10 @@ def begin_again(plan: Vector, state: Vector) -> None:
 @kernel
 def finite(plan: Vector, state: Vector) -> bool:
     """Whether all parts are within the range of numbers."""
-    found = True
+    is_finite = True
     for i in range(FIRST, FIRST + flow.parts(plan)):
-        found = found and abs(state[i]) < 1e200  # and no NaN
-    return found
+        is_finite = is_finite and abs(state[i]) < 1e200  # and no NaN
+    return is_finite
 
 
 @kernel

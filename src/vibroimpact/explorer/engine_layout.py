@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import batch, flow, flow_tables, hold, lyapunov, state
+from vibroimpact.engine import batch, flow, flow_tables, lyapunov, state, steady_response
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import AnyStops, Apart
 from vibroimpact.engine.linear.layout import PLAN
@@ -42,7 +42,7 @@ def layout_of_engine() -> dict[str, Any]:
         "functions": len(flow.SIGNATURES),
         "plan": PLAN,
         "state": ONE_MASS.width,
-        "results": hold.RESULTS,
+        "results": steady_response.RESULTS,
         "parts": ONE_MASS.total,
         "record": {
             "sample": record.SAMPLE,
@@ -63,7 +63,7 @@ def layout_of_engine() -> dict[str, Any]:
             ),
         },
         "hold": _positions(
-            hold,
+            steady_response,
             "PERIOD CYCLES OUTCOME U_LEAST U_MOST A_LEAST A_MOST HITS FORCE IMPULSE T_LEAST T_MOST",
         ),
         "motion": {

@@ -25,6 +25,7 @@ from .exponents import exponent_curves as exponent_curves
 from .family import family_legend as family_legend
 from .family import resonance_family as resonance_family
 from .feature import feature_map as feature_map
+from .figure_dimensions import figure_size as figure_size
 from .fit import fit_history as fit_history
 from .fit import fit_profiles as fit_profiles
 from .fit import fit_residuals as fit_residuals
@@ -41,5 +42,4 @@ from .response_spectra import response_spectra as response_spectra
 from .scenarios import Mark as Mark
 from .scenarios import scenario_map as scenario_map
 from .sections import section_diagram as section_diagram
-from .sizes import figure_size as figure_size
 from .style import save_figure as save_figure

@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.figure_dimensions import columns_that_fit
 from vibroimpact.figures.finish import without_unit
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import BANDS, Band, panels
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND, check_known

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.figure_dimensions import columns_that_fit
 from vibroimpact.figures.finish import finished
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.scenarios.scenario import Scenario

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.figure_dimensions import columns_that_fit, size_of_new
 from vibroimpact.figures.finish import acceleration_text, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import DrawnMotion, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.record import contact_bands, gap_lines, mark_end, stops_legend, stops_of
-from vibroimpact.figures.sizes import columns_that_fit, size_of_new
 from vibroimpact.figures.style import CURVES, EDGE, Look, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal

@@ -129,7 +129,7 @@ def resonance_family(
         ax.plot(frequency, references[0], label=FREE.label, zorder=2, **FREE.line)
     for i, name in enumerate(names):
         number, colour = (markers or {}).get(name, i), (colours or {}).get(name)
-        look = _look((labels or {}).get(name, literal(name)), number, colour)
+        look = _curve_style((labels or {}).get(name, literal(name)), number, colour)
         _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, number)
     fit_x_axis(ax, frequency)
     ax.set_xlabel("excitation frequency $f$ (Hz)")
@@ -152,7 +152,7 @@ def family_legend(ax: Annotated[Axes, check_axes]) -> list[Artist]:
     return [*(line for line in rigs if line not in flight), *dashes, *flight]
 
 
-def _look(label: str, i: int, colour: str | None) -> Look:
+def _curve_style(label: str, i: int, colour: str | None) -> Look:
     marker, colour = _MARKERS[i % len(_MARKERS)], colour or _COLOURS[i % len(_COLOURS)]
     # Filled and open in turn: neighbours differ although their markers are small.
     return Look(label, colour, "-", 1.1, marker, 4.2 * _LARGER.get(marker, 1.0), i % 2 == 0)

@@ -12,10 +12,10 @@ from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, alternatives
+from vibroimpact.figures.figure_dimensions import columns_that_fit
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import EDGE, SHADE, panels
 from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS

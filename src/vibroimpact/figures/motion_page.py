@@ -12,6 +12,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.figure_dimensions import is_print
 from vibroimpact.figures.finish import finished
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.legends import add_legend, fit_labels
@@ -19,7 +20,6 @@ from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import DrawnMotion, cycles_label, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.portrait import SECTION, phase_portrait
-from vibroimpact.figures.sizes import is_print
 from vibroimpact.response.spectrum import fourier_spectrum
 
 ROWS = 2 + len(PANELS)

@@ -20,7 +20,7 @@ from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputWarning, outside
-from vibroimpact.figures.sizes import is_print, size_of_new
+from vibroimpact.figures.figure_dimensions import is_print, size_of_new
 
 _MISSING = re.compile(r"Glyph (\d+) .* missing from font")
 

@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
+from vibroimpact.figures.figure_dimensions import columns_that_fit
 from vibroimpact.figures.notebook import EMBEDDED, Drawing, Panels, new_axes
-from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.argument_types import File, Positive
 from vibroimpact.model.public import public

@@ -278,7 +278,9 @@ def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
     for name in ("frequency", "amplitude"):
         if name in named:
             rig = PARAMETERS[name].vary(rig, named.pop(name))
-    fields = {name: named[name] for name in sorted(named, key=_breadth) if name not in DERIVED}
+    fields = {
+        name: named[name] for name in sorted(named, key=_depth_of_path) if name not in DERIVED
+    }
     rig = _with_fields(rig, fields)
     for name in _ORDER:
         if name == "damping" and len(fields) < len(named):  # which derived parameters have scaled
@@ -308,7 +310,7 @@ _ORDER = (
 """Derived parameters in the order in which they depend on each other, and on stated dampings."""
 
 
-def _breadth(name: str) -> int:
+def _depth_of_path(name: str) -> int:
     """Rank a path: that of all stops comes before that of one."""
     return name.count(".")
 

@@ -137,22 +137,22 @@ def _signal(
     number: int,
     decimal: str,
 ) -> Signal:
-    def own(key: str) -> str:
+    def channel_field(key: str) -> str:
         listed = about.get(key, [])
         return listed[number] if number < len(listed) else ""
 
-    unit = own("y_unit_label") or None
+    unit = channel_field("y_unit_label") or None
     y = np.array(values)
     known = np.isfinite(y)
     count = int(np.flatnonzero(known)[-1]) + 1 if known.any() else 0
-    step = _number(file, above, own("delta_x"), decimal)
-    first = _number(file, above, own("x0"), decimal)
+    step = _number(file, above, channel_field("delta_x"), decimal)
+    first = _number(file, above, channel_field("x0"), decimal)
     x = np.array(times[:count])
     if len(x) < count or not np.isfinite(x).all():
         start = first if np.isfinite(first) else 0.0
         x = start + step * np.arange(count)
     stated = float(step) if step > 0.0 else None
-    axis = own("x_dimension").lower() or "time"
+    axis = channel_field("x_dimension").lower() or "time"
     return Signal(name, x, stated, y[:count], axis, spelled(unit) if unit else None)
 
 

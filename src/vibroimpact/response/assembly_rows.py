@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.stops import by_stop, stops_of
-from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import orbit, section_map, steady_response
 from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
@@ -87,7 +87,7 @@ def measured_variables(
     ----------
     system
         The oscillator or the assembly.
-    rows : ndarray, shape (*dims, hold.RESULTS or hold.MEASURED + measures.count(...))
+    rows : ndarray, shape (*dims, RESULTS or MEASURED + measures.count(...))
         Rows that the engine writes of holds and orbits.
     dims
         Names of the dims of the rows.
@@ -127,7 +127,7 @@ def _of_one_mass(
 
 def _by_mass(assembly: Assembly, rows: _Array, dims: tuple[str, ...]) -> dict[str, Any]:
     n, stops = len(assembly.names), len(assembly.stops)
-    seen = rows[..., hold.MEASURED :]
+    seen = rows[..., steady_response.MEASURED :]
     base = measures.OF_MASS * n
     masses = seen[..., :base].reshape(*seen.shape[:-1], n, measures.OF_MASS)
     carried = seen[..., base : base + measures.OF_BASE]
@@ -173,7 +173,7 @@ def measured_over(engine: PreparedRig, state: _Array, cycles: int) -> _Array:
 
 def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:
     """Return the doubts about rows: what was decided by a rule, or was not decided."""
-    base = hold.MEASURED + measures.OF_MASS * len(assembly.names)
+    base = steady_response.MEASURED + measures.OF_MASS * len(assembly.names)
     notes = []
     if count := int((rows[..., base + measures.ORDERED] > 0.0).sum()):
         notes.append(

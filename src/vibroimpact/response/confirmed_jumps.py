@@ -129,7 +129,7 @@ def _kind(
         again = sweep(rig, np.sort(between), [direction], start=start, **settling)
         holds = [again.isel(direction=0).sel(frequency=at) for at in between]
         holds = [step.last, *holds, step.first]
-        shares = [_apart(one, other, curves) for one, other in pairwise(holds)]
+        shares = [_largest_change(one, other, curves) for one, other in pairwise(holds)]
         for i, share in enumerate(shares):
             if share <= APART:
                 continue
@@ -145,7 +145,9 @@ def _kind(
     return kind
 
 
-def _apart(one: xr.Dataset, other: xr.Dataset, curves: Sequence[tuple[str, str | None]]) -> float:
+def _largest_change(
+    one: xr.Dataset, other: xr.Dataset, curves: Sequence[tuple[str, str | None]]
+) -> float:
     """Return by how much two holds differ in the curve in which they differ most, as a share."""
 
     def value(hold: xr.Dataset, name: str, mass: str | None) -> float:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import orbit, section_map, steady_response
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
@@ -145,11 +145,15 @@ class Flight(NamedTuple):
         parts = _POINT if system[par.HYSTERETIC] else _POINT[:2]
         if np.abs(np.linalg.eigvals(carried[np.ix_(parts, parts)])).max() > _STABLE:
             return None
-        results = np.full(hold.RESULTS, np.nan)
+        results = np.full(steady_response.RESULTS, np.nan)
         outcome = orbit.measure_orbit(system, 0.0, point, facts, 1, MAX_EVENTS, results)
         if outcome != Status.DONE:
             return None
-        results[hold.PERIOD], results[hold.CYCLES], results[hold.OUTCOME] = 1, 0, Status.DONE
+        (
+            results[steady_response.PERIOD],
+            results[steady_response.CYCLES],
+            results[steady_response.OUTCOME],
+        ) = 1, 0, Status.DONE
         state = np.zeros(ONE_MASS.width)
         state[_PARTS] = point[_POINT]
         return Held(frequency, HoldRows(results), state)

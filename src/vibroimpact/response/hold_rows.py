@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
+from vibroimpact.engine import batch, steady_response
 from vibroimpact.engine.assembly import layout, measures
 from vibroimpact.engine.one_mass.extremes import by_stop
 from vibroimpact.engine.parameters import FORCING, MASSES
@@ -40,7 +40,7 @@ class HoldRows:
 
     Parameters
     ----------
-    array : ndarray, shape (..., hold.RESULTS)
+    array : ndarray, shape (..., steady_response.RESULTS)
         A row for each held frequency.
     """
 
@@ -52,7 +52,7 @@ class HoldRows:
     @classmethod
     def empty(cls, *shape: int) -> HoldRows:
         """Return rows for the engine to write."""
-        return cls(np.empty((*shape, hold.RESULTS)))
+        return cls(np.empty((*shape, steady_response.RESULTS)))
 
     def __len__(self) -> int:
         return len(self.array)
@@ -64,12 +64,12 @@ class HoldRows:
     @property
     def displacement_min(self) -> _Array:
         """Smallest relative displacement (m)."""
-        return self.array[..., hold.U_LEAST]
+        return self.array[..., steady_response.U_LEAST]
 
     @property
     def displacement_max(self) -> _Array:
         """Largest relative displacement (m)."""
-        return self.array[..., hold.U_MOST]
+        return self.array[..., steady_response.U_MOST]
 
     @property
     def displacement_excursion(self) -> _Array:
@@ -86,12 +86,12 @@ class HoldRows:
     @property
     def acceleration_min(self) -> _Array:
         """Smallest absolute acceleration (m/s²)."""
-        return self.array[..., hold.A_LEAST]
+        return self.array[..., steady_response.A_LEAST]
 
     @property
     def acceleration_max(self) -> _Array:
         """Largest absolute acceleration (m/s²)."""
-        return self.array[..., hold.A_MOST]
+        return self.array[..., steady_response.A_MOST]
 
     @property
     def acceleration_excursion(self) -> _Array:
@@ -108,30 +108,30 @@ class HoldRows:
     @property
     def impacts(self) -> _Array:
         """Contacts per forcing cycle with the right and the left stop, shape (..., 2)."""
-        found: _Array = self.array[..., by_stop(hold.HITS)]
+        found: _Array = self.array[..., by_stop(steady_response.HITS)]
         return found
 
     @property
     def peak_force(self) -> _Array:
         """Largest forces of the right and the left stop per unit mass (m/s²), shape (..., 2)."""
-        found: _Array = self.array[..., by_stop(hold.FORCE)]
+        found: _Array = self.array[..., by_stop(steady_response.FORCE)]
         return found
 
     @property
     def peak_impulse(self) -> _Array:
         """Largest impulses on the right and the left rigid stop per unit mass (m/s), (..., 2)."""
-        found: _Array = self.array[..., by_stop(hold.IMPULSE)]
+        found: _Array = self.array[..., by_stop(steady_response.IMPULSE)]
         return found
 
     @property
     def transmitted_min(self) -> _Array:
         """Smallest force of isolator and stops on the base per unit mass (m/s²)."""
-        return self.array[..., hold.T_LEAST]
+        return self.array[..., steady_response.T_LEAST]
 
     @property
     def transmitted_max(self) -> _Array:
         """Largest force of isolator and stops on the base per unit mass (m/s²)."""
-        return self.array[..., hold.T_MOST]
+        return self.array[..., steady_response.T_MOST]
 
     @property
     def transmitted_excursion(self) -> _Array:
@@ -142,17 +142,17 @@ class HoldRows:
     @property
     def period(self) -> NDArray[np.int64]:
         """Period in forcing cycles; 0 where the motion did not settle."""
-        return self.array[..., hold.PERIOD].astype(np.int64)
+        return self.array[..., steady_response.PERIOD].astype(np.int64)
 
     @property
     def cycles(self) -> NDArray[np.int64]:
         """Forcing cycles used."""
-        return self.array[..., hold.CYCLES].astype(np.int64)
+        return self.array[..., steady_response.CYCLES].astype(np.int64)
 
     @property
     def status(self) -> _Array:
         """How the hold ended, a `Status`; a view, to be changed in place."""
-        return self.array[..., hold.OUTCOME]
+        return self.array[..., steady_response.OUTCOME]
 
     @property
     def settled(self) -> NDArray[np.bool_]:
@@ -164,9 +164,9 @@ class HoldRows:
 def results_of(vector: _Array) -> int:
     """Return how many numbers the engine writes of a hold of a rig."""
     if vector[FORCING] != MASSES:
-        return hold.RESULTS
+        return steady_response.RESULTS
     masses, parts, links = vector[[layout.MASSES, layout.STOPS, layout.LINKS]].astype(int)
-    return hold.MEASURED + measures.count(masses, parts - links)
+    return steady_response.MEASURED + measures.count(masses, parts - links)
 
 
 def sweep_holds(

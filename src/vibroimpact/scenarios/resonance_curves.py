@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
-from vibroimpact.engine import hold
+from vibroimpact.engine import steady_response
 from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import NOT_SETTLED
 from vibroimpact.errors import InputError
@@ -117,7 +117,7 @@ def swept_alone(
     ready = plan_sweep(rig, frequencies)
     settling = Settling(_TOLERANCE, max_cycles, window, _MAX_EVENTS)
     shape = (2, len(frequencies))
-    found, states = np.empty((*shape, hold.RESULTS)), []
+    found, states = np.empty((*shape, steady_response.RESULTS)), []
     for k, direction in enumerate(DIRECTIONS):
         found[k], reached = rows(ready, direction, 0.0, settling, tally, transient)
         states.append(reached)

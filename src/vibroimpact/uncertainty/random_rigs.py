@@ -128,12 +128,12 @@ def _read(base: Rig, shaken: Repeated | None, distributions: Any) -> Uncertain:
                 "without shaking; pass Rig(oscillator, amplitude) as the rig"
             )
 
-        def own(varied: Parameter = varied) -> float:
+        def current_value(varied: Parameter = varied) -> float:
             return varied.read(base)
 
-        own()  # refuses what the rig does not have
+        current_value()  # refuses what the rig does not have
         parameters.append(varied)
-        made.append(distribution(one, varied, own, field))
+        made.append(distribution(one, varied, current_value, field))
     texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
     if len(texts) < len(parameters):
         names = [one.name for one in parameters]

@@ -15,17 +15,17 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.observers.record import BEGIN, COLUMNS, COUNT, NEXT, note_room
+from vibroimpact.engine.observers.record import BEGIN, COLUMNS, COUNT, NEXT, note_buffer
 from vibroimpact.engine.observers.record import STEP as BETWEEN
 from vibroimpact.engine.state import (
     EVENT,
     STEP,
     T,
     load,
-    notes_room,
+    notes_buffer,
     put,
-    room,
-    stretch_room,
+    state_buffer,
+    stretch_buffer,
 )
 
 _COUNTED = [at.STEPS, at.SPLITS, at.ORDERED, at.UNDECIDED]
@@ -53,8 +53,8 @@ def follow(
     """Follow a motion over sections; see `follow_sections`."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, omega)
-    here, there, ended, notes = room(), room(), stretch_room(), note_room()
-    passed = notes_room()
+    here, there, ended, notes = state_buffer(), state_buffer(), stretch_buffer(), note_buffer()
+    passed = notes_buffer()
     load(plan, pointer(state), here, 0.0, 0.0)
     count, written = 0, 0
     for i in range(8):

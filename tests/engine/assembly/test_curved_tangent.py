@@ -17,7 +17,7 @@ from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.rigless_entry import rigless_entry
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
@@ -107,7 +107,7 @@ def test_differences(link: str, stop: str) -> None:
         assert q[part] == pytest.approx(expected, rel=0.0, abs=1e-6 * scale), part
 
 
-@single("f8(f8[::1], f8[::1], f8[::1], i8)")
+@rigless_entry("f8(f8[::1], f8[::1], f8[::1], i8)")
 def ask(given: Any, memory: Vector, state: Vector, values: Vector, part: int) -> float:
     """Place a state, at a point if there is one, or disturb a part of it."""
     plan, here = pointer(memory), pointer(state)

@@ -22,12 +22,12 @@ from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion, make_vector
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
-from vibroimpact.engine.hold import MEASURED, OUTCOME, PERIOD, RESULTS
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.parameters import FORCING, rig_vector
 from vibroimpact.engine.settling import PATIENT
-from vibroimpact.engine.state import copy, load, measures_room, room, width
+from vibroimpact.engine.state import copy, load, measures_buffer, state_buffer, width
 from vibroimpact.engine.status import DONE
+from vibroimpact.engine.steady_response import MEASURED, OUTCOME, PERIOD, RESULTS
 
 MASS, STIFFNESS, DAMPING = 1.3, 150.0, 2.0
 BUMPER, WALL = (2.0e4, 25.0, 0.01), (0.6, 0.02)
@@ -174,7 +174,7 @@ def watched(given, rig, amplitude, frequency, phase, which, state, q):
     """A cycle unobserved and observed; or a state mirrored."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    here, notes = room(), measures_room()
+    here, notes = state_buffer(), measures_buffer()
     s, c = math.sin(phase), math.cos(phase)
     load(plan, pointer(state), here, s, c)
     events = 0

@@ -12,15 +12,15 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.roots import NONE, first_fall
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.rigless_entry import rigless_entry
 
 
-@single("f8(f8[::1], f8, f8, f8[::1])")
+@rigless_entry("f8(f8[::1], f8, f8, f8[::1])")
 def find(given: Any, b: Vector, d: float, x: float, plan: Vector) -> float:
     return first_fall(pointer(b), d, x, 1.0, 0, 1e-300, pointer(plan))
 
 
-def room() -> Vector:
+def buffer() -> Vector:
     plan = np.zeros(at.HEADER + 64 * 17)
     plan[at.ROOM], plan[at.WIDTHS] = at.HEADER, at.HEADER + 64 * 16
     return plan
@@ -41,7 +41,7 @@ def test_near_touches() -> None:
     nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(d + 1) + 0.5) / (d + 1))
     fit = np.linalg.inv(basis(nodes))
     kinds: dict[tuple[bool, bool], int] = {}
-    plan = room()
+    plan = buffer()
     for _ in range(samples.sample(2500, 200)):
         touch = rng.uniform(0.05, 0.95)
         depth = rng.choice([-1, 1]) * 10.0 ** rng.uniform(-14, -3)
@@ -80,10 +80,10 @@ def test_near_touches() -> None:
 
 
 def test_what_is_zero_everywhere_has_no_root() -> None:
-    assert find(np.zeros(16), 0.0, 0.0, room()) == NONE
+    assert find(np.zeros(16), 0.0, 0.0, buffer()) == NONE
 
 
 def test_a_zero_by_construction_is_no_root() -> None:
     b = np.arange(16) / 15.0
-    assert find(b, 0.0, 0.0, room()) == NONE
-    assert find(-b, 0.0, 0.0, room()) == 0.0
+    assert find(b, 0.0, 0.0, buffer()) == NONE
+    assert find(-b, 0.0, 0.0, buffer()) == 0.0

@@ -16,13 +16,13 @@ from vibroimpact.engine.assembly.advance import build
 from vibroimpact.engine.assembly.plan import make_vector
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.rigless_entry import rigless_entry
 from vibroimpact.engine.status import DONE
 
 PLACE, DISTURB, DESCRIBE = range(3)
 
 
-@single("f8(i8, f8[::1], f8, f8, f8[::1], f8[:, ::1], f8[::1])")
+@rigless_entry("f8(i8, f8[::1], f8, f8, f8[::1], f8[:, ::1], f8[::1])")
 def ask(
     given: Any,
     what: int,

@@ -50,7 +50,7 @@ def test_each_has_its_rate_and_its_place() -> None:
     plan = begun(several, Drive(weights=WEIGHTS), 2.0, OMEGA)
     assert several.count(plan) == 4
     assert several.pace(plan) == 4 * OMEGA
-    assert len(plan) == several.room(4)
+    assert len(plan) == several.plan_length(4)
     places = [several.plane(plan, n) for n in (1, 2, 3, 4)]
     assert places[0] == 0
     assert TABLES + places[1] == PLAN + 2 * 4

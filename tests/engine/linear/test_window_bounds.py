@@ -43,14 +43,14 @@ QUANTITIES = 3
 @kernel
 def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out: Vector) -> int:
     """Of each piece and quantity the samples' least and most, the bounds, and what was seen."""
-    series, room = workspace(), chords()
+    series, buffer = workspace(), chords()
     n = 0
     within, seen = False, first
     cursor = begin(plan, motion, length)
     while has_piece(plan, cursor):
         if cursor.i == 0:
-            within, seen = bound_window(plan, cursor, motion, seen, room)
-        held = seen if within else enclosed(plan, cursor, room)
+            within, seen = bound_window(plan, cursor, motion, seen, buffer)
+        held = seen if within else enclosed(plan, cursor, buffer)
         bounds = held.x_least, held.x_most, held.a_least, held.a_most, -math.inf, held.force
         noted = seen.x_least, seen.x_most, seen.a_least, seen.a_most, -math.inf, seen.force
         for part in range(QUANTITIES):

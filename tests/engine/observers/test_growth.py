@@ -22,10 +22,10 @@ from vibroimpact.engine.state import (
     ONE_MASS,
     T,
     load,
-    notes_room,
-    parts_room,
-    room,
-    stretch_room,
+    notes_buffer,
+    parts_buffer,
+    state_buffer,
+    stretch_buffer,
 )
 from vibroimpact.response.prepared_rig import prepare
 
@@ -193,16 +193,16 @@ def grown_over(given, rig, length, event, q, logarithms):
     """The growth over a stretch of flight, as if this event had ended it."""
     plan = planned(given, rig)
     flow.build(plan, 0.0, 1.0)
-    before, after, ended, weights = room(), room(), stretch_room(), parts_room()
+    before, after, ended, weights = state_buffer(), state_buffer(), stretch_buffer(), parts_buffer()
     load(plan, pointer(np.zeros(ONE_MASS.width)), before, 0.0, 1.0)
     flow.advance(plan, before, length, ended, after)
     ended[EVENT], ended[T] = event, 0.0
     growth.weigh(plan, weights)
     rows = growth.rows_of(
-        plan, pointer(q), growth.work_room(), weights, pointer(logarithms), len(logarithms)
+        plan, pointer(q), growth.work_buffer(), weights, pointer(logarithms), len(logarithms)
     )
     growth.begin_rows(plan, before, rows, 0, len(logarithms))
-    growth.grow(plan, before, ended, after, notes_room(), rows)
+    growth.grow(plan, before, ended, after, notes_buffer(), rows)
 
 
 def test_pieces_that_end_otherwise_than_their_stretch_leave_the_growth_unknown():

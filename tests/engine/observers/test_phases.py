@@ -14,10 +14,10 @@ from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
-from vibroimpact.engine.observers.record import IMPACT, WRITTEN, note_room, start_notes
+from vibroimpact.engine.observers.record import IMPACT, WRITTEN, note_buffer, start_notes
 from vibroimpact.engine.one_mass import record as written
 from vibroimpact.engine.parameters import Drive, rig_vector
-from vibroimpact.engine.state import copy, room, width, wind
+from vibroimpact.engine.state import copy, state_buffer, width, wind
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 
 STIFFNESS, DAMPING, GAP = 20.0, 2.0, 0.3
@@ -75,7 +75,7 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, 
     """The same cycle, measured, written down and integrated."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, omega)
-    state, kept = room(), note_room()
+    state, kept = state_buffer(), note_buffer()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     begin_row(pointer(rows), 1, 0, int(notes[layout.WIDTH]))

@@ -12,8 +12,8 @@ from vibroimpact.engine.channels import (
     FORCE,
     LENGTH,
     SERIES,
-    piece_room,
-    series_room,
+    piece_buffer,
+    series_buffer,
     widen,
 )
 from vibroimpact.engine.entry import entry
@@ -21,7 +21,7 @@ from vibroimpact.engine.event_loop import observed
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.opening import open_entry
-from vibroimpact.engine.state import room
+from vibroimpact.engine.state import state_buffer
 from vibroimpact.model import equilibrium
 from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.engine_input import engine_rig, engine_state
@@ -30,7 +30,7 @@ from vibroimpact.response.engine_input import engine_rig, engine_state
 @kernel
 def see_power(plan, before, ended, after, notes):
     """Widen the range of the power that each stop takes up, two notes each."""
-    piece, force, depth, power = piece_room(), series_room(), series_room(), series_room()
+    piece, force, depth, power = piece_buffer(), series_buffer(), series_buffer(), series_buffer()
     more = flow.first_piece(plan, before, ended, piece)
     while more:
         for stop in range(flow.stops(plan)):
@@ -50,7 +50,7 @@ largest_power = observed(see_power)
 
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, f8[::1])", "measured")
 def find_power(given, rig, amplitude, frequency, phase, state, cycles, notes):
-    here, count = room(), 0
+    here, count = state_buffer(), 0
     plan, s, c, period, _ = open_entry(
         given, rig, amplitude, frequency, phase, pointer(state), here
     )

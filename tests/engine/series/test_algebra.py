@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from vibroimpact.engine.series.algebra import Rate, Shifted, State
+from vibroimpact.engine.series.algebra import Rate, Shifted, StateSeries
 from vibroimpact.engine.series.code_generation import Plain
 from vibroimpact.engine.series.functions import exponential, power
 
@@ -52,7 +52,7 @@ def velocity(t: Any) -> Any:
 def test_coefficients(name: str) -> None:
     """One by one, and older ones summed two at a time from the fourth on."""
     formula, machine = FORMULAE[name], Plain(None, ())
-    state = State(machine, STATE[:1])
+    state = StateSeries(machine, STATE[:1])
     series = formula(machine, Shifted(state, STATE[0]), Rate(state))
     found = []
     for n in range(DEGREE + 1):
@@ -70,7 +70,7 @@ def test_what_is_older_needs_no_newest_coefficient(name: str) -> None:
     for n in (1, 4, 5, 9):
         values = []
         for newest in (0.3, -1.1):
-            state, rate = State(machine, STATE[:n]), State(machine, STATE[1 : n + 1])
+            state, rate = StateSeries(machine, STATE[:n]), StateSeries(machine, STATE[1 : n + 1])
             series = formula(machine, Shifted(state, STATE[0]), rate)
             for m in range(n):
                 series[m]

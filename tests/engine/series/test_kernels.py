@@ -55,7 +55,7 @@ SHAPES = [
     for other in (0, 1)
 ]
 SHAPES += [
-    (root_variable.rooted, Rooted(laws, which, power, viscous, single))
+    (root_variable.write_root_series, Rooted(laws, which, power, viscous, single))
     for name, laws in LAWS.items()
     if name != "fluid"
     for which, power, viscous in ((2, 3, False), (4, 6, True))
@@ -146,7 +146,7 @@ def test_slopes_are_derivatives_of_the_forces(shape) -> None:
 
 def forces(plan: np.ndarray, shape: Shape, x: float, v: float, z: float) -> tuple[float, float]:
     """What all forces pull back with but for that of z alone, and z′."""
-    law = step.Law(Plain(plan, ()))
+    law = step.LawNumbers(Plain(plan, ()))
     u = x + law.offset
     pull = law.stiffness * x + law.damping * v
     pull += sum(step.isolator(law, shape, u, v, z)) + sum(step.pushes(law, shape, x, v))

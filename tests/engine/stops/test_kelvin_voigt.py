@@ -53,7 +53,7 @@ def test_it_comes_back_when_it_has_relaxed_so_far() -> None:
 def test_beside_a_mass_it_is_pressed_or_free(
     stop: int, mode: int, u: float, v: float, expected: tuple[float, bool]
 ) -> None:
-    deformation, pressed = kelvin_voigt.placed(PLAN, stop, mode, u, v, 0.02)
+    deformation, pressed = kelvin_voigt.nearest_possible(PLAN, stop, mode, u, v, 0.02)
     assert pressed == expected[1]
     assert deformation == pytest.approx(expected[0], abs=1e-15)
 

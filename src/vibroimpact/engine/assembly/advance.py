@@ -29,7 +29,7 @@ from vibroimpact.engine.assembly.tables import (
 from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, event_of
 from vibroimpact.engine.event_loop import unobserved
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import ARRIVAL, STEP
 
@@ -97,7 +97,7 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
     begin(plan, amplitude, omega)
 
 
-@apart
+@not_inlined
 def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
     """Take up a motion at a section, where the clock is s, c."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
@@ -119,7 +119,7 @@ def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
     enter_mode(plan, int(state[at.STATE_MODE]))
 
 
-@apart
+@not_inlined
 def store_motion(plan: Vector, state: Vector) -> None:
     """Write the motion as a state with its clock."""
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
@@ -163,7 +163,7 @@ def _parts_of(plan: Vector, result: int) -> float:
     return total
 
 
-@apart
+@not_inlined
 def held_size(plan: Vector, f: int) -> float:
     """The size of what the force at a resting stop is made of.
 
@@ -204,7 +204,7 @@ def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     return size
 
 
-@apart
+@not_inlined
 def expand_watched(plan: Vector, f: int, mode: int, length: float) -> None:
     """Write a watched function by its series; tables leave in it the rounding of all that moves."""
     y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
@@ -228,7 +228,7 @@ def sizes(plan: Vector) -> tuple[float, float, float]:
     return far, speed, driven + rate * (speed + rate * far)
 
 
-@apart
+@not_inlined
 def order_of_zero(
     plan: Vector, f: int, mode: int, d: float, x: float, length: float, zeros: int
 ) -> int:
@@ -256,15 +256,15 @@ def order_of_zero(
         memory *= -x / k
         held *= plan[at.RATE]
         if k >= order:
-            found = a[k]
+            coefficient = a[k]
             if by_tables:
-                found = 0.0
+                coefficient = 0.0
                 for i in range(k + 1):
-                    found += _DIFFERENCES[8 * k + i] * b[i]
-                if abs(found + memory) <= _DIFFERENCES[8 * k + 7] * blurred:
+                    coefficient += _DIFFERENCES[8 * k + i] * b[i]
+                if abs(coefficient + memory) <= _DIFFERENCES[8 * k + 7] * blurred:
                     expand_watched(plan, f, mode, length)
-                    by_tables, found = False, a[k]
-            if abs(found + memory) > share * (stiffness * size + damping * faster + held):
+                    by_tables, coefficient = False, a[k]
+            if abs(coefficient + memory) > share * (stiffness * size + damping * faster + held):
                 break
             order = k + 1
         size, faster = faster, faster * plan[at.RATE]
@@ -294,8 +294,8 @@ def _reach(plan: Vector, f: int, mode: int) -> float:
     n, fastest = int(plan[at.MASSES]), 0.0
     for i in range(n):
         fastest = max(fastest, abs(plan[int(plan[at.Y]) + n + i]))
-    found: float = fastest / max(plan[at.STIFF_RATE], 1e-200)
-    return found
+    distance: float = fastest / max(plan[at.STIFF_RATE], 1e-200)
+    return distance
 
 
 @kernel
@@ -330,8 +330,8 @@ def is_positive(a: Vector, order: int) -> bool:
         other += min(a[j + 1], 0.0)
     if order % 2 == 1:
         least += min(a[order], 0.0)
-    found: bool = least + other > 0.0
-    return found
+    is_proved: bool = least + other > 0.0
+    return is_proved
 
 
 @kernel
@@ -345,7 +345,7 @@ def remember(plan: Vector, target: int, deformations: int) -> None:
         plan[deformations + f] = plan[deformation + f]
 
 
-@apart
+@not_inlined
 def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     """As `advance`, in a mode that has tables: a leap, a step, or the way to an event."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
@@ -354,7 +354,7 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     base = 2 * n + w + 1
     x = beyond(plan, int(plan[at.SCRATCH]))
     width = int(plan[place + WIDTH])
-    room = beyond(x, (width + 7) // 8 * 8)
+    buffer = beyond(x, (width + 7) // 8 * 8)
     gather(plan, x)
     h = plan[place + STEP_LENGTH]
     level = LEVELS - 1 - int(plan[at.LEVEL])
@@ -366,7 +366,7 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
         for f in range(count):
             if clear >> f & 1:
                 continue
-            if zeros[f] == 0.0 and is_clear_on_leap(plan, place, level, f, x, room):
+            if zeros[f] == 0.0 and is_clear_on_leap(plan, place, level, f, x, buffer):
                 clear |= 1 << f
             else:
                 all_clear = False
@@ -398,7 +398,7 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     plan[at.PIECE_LENGTH] = h
     plan[at.PIECES] = max(math.ceil(time / h - _SAME), 1.0)
     if time > 0.0:
-        travel_by_tables(plan, place, time, x, room)
+        travel_by_tables(plan, place, time, x, buffer)
         relax(plan, mode, beyond(plan, int(plan[at.DEFORMATION])), time)
         y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
         for i in range(base):
@@ -409,7 +409,7 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     return finish(plan, mode, hit, time, end > _SAME)
 
 
-@apart
+@not_inlined
 def next_stretch(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 

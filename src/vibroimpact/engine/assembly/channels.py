@@ -34,11 +34,11 @@ from vibroimpact.engine.channels import (
     VELOCITY,
     evaluate,
 )
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 
-@apart
+@not_inlined
 def open_stretch(plan: Vector) -> None:
     """Go back to where the last stretch begins."""
     plan[at.ACTUAL_MODE] = plan[at.MODE]
@@ -78,7 +78,7 @@ def fade(plan: Vector, deformation: Vector, t: float) -> None:
             deformation[f] *= math.exp(-plan[stops + f * at.STOP_WIDTH + at.RELAXATION] * t)
 
 
-@apart
+@not_inlined
 def open_piece(plan: Vector, i: int) -> None:
     """Make the series of a piece; one after the other."""
     y = beyond(plan, int(plan[at.PIECE_Y]))
@@ -90,7 +90,7 @@ def open_piece(plan: Vector, i: int) -> None:
     expand_state(plan, y, deformation, length)
 
 
-@apart
+@not_inlined
 def open_instant(plan: Vector) -> bool:
     """Make the first terms of the series of the present, as a piece.
 
@@ -109,7 +109,7 @@ def open_instant(plan: Vector) -> bool:
     return True
 
 
-@apart
+@not_inlined
 def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
     n, w, row = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.ROW])

@@ -9,7 +9,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.acceleration import drive, places, restrain, take_off
 from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.stops.rebound import rebound
 
@@ -87,11 +87,11 @@ def push_and_jerk(plan: Vector, f: int, y: Vector, deformation: Vector) -> tuple
     n, count, w = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.WAVES])
     row = 2 * (n + 1)
     place = int(plan[at.SCRATCH]) + row
-    room = place + n + 1 + count
+    buffer = place + n + 1 + count
     accelerations(plan, y, beyond(y, n), beyond(y, 2 * n), deformation, 1.0, place)
     push = closing(plan, f, beyond(plan, place))
     # The same map of the state's derivative.
-    waves, rates, second = room, room + w, room + w + count
+    waves, rates, second = buffer, buffer + w, buffer + w + count
     for i in range(n):
         plan[second + i] = plan[place + i]
     for g in range(count):
@@ -116,7 +116,7 @@ def push_and_jerk(plan: Vector, f: int, y: Vector, deformation: Vector) -> tuple
     return push, closing(plan, f, beyond(plan, place))
 
 
-@apart
+@not_inlined
 def settles(
     plan: Vector, f: int, returned: float, e: float, y: Vector, deformation: Vector
 ) -> bool:
@@ -222,7 +222,7 @@ def impacts(settle: Any) -> Any:
 impact = impacts(settles)
 
 
-@apart
+@not_inlined
 def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
     """Go through the event of a stop whose watched function is zero; the mode and what it was."""
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH

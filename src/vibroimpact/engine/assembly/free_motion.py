@@ -13,16 +13,16 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.series import expand_state, travel_by_series
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.matrix import radius, solve
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import LARGEST, parts_room, square_room
+from vibroimpact.engine.state import LARGEST, parts_buffer, square_buffer
 
 
-@apart
+@not_inlined
 def _solved(a: Vector, b: Vector, n: int) -> bool:
-    found: bool = solve(a, b, n)
-    return found
+    is_solved: bool = solve(a, b, n)
+    return is_solved
 
 
 @kernel
@@ -30,7 +30,7 @@ def _response(plan: Vector, omega: float, sine: Vector, cosine: Vector) -> bool:
     """Replace accelerations by the displacements that they force at ω; False if unbounded."""
     n = int(plan[at.MASSES])
     k, c = int(plan[at.STIFFNESS]), int(plan[at.DAMPING])
-    a, b = square_room(), parts_room()
+    a, b = square_buffer(), parts_buffer()
     m = 2 * n
     for i in range(n):
         for j in range(n):
@@ -50,17 +50,17 @@ def _response(plan: Vector, omega: float, sine: Vector, cosine: Vector) -> bool:
 def _statics(plan: Vector, load: Vector) -> bool:
     """Replace accelerations by the displacements at which the links balance them."""
     n, k = int(plan[at.MASSES]), int(plan[at.STIFFNESS])
-    a = square_room()
+    a = square_buffer()
     for i in range(n * n):
         a[i] = plan[k + i]
     return _solved(a, load, n)
 
 
-@apart
+@not_inlined
 def _dies_out(plan: Vector, period: float, dying: float) -> bool:
     """Whether free motions become less in a period."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
-    q, other, y, none = square_room(), square_room(), parts_room(), parts_room()
+    q, other, y, none = square_buffer(), square_buffer(), parts_buffer(), parts_buffer()
     m = 2 * n
     steps = math.ceil(plan[at.RATE] * period / at.STEP)
     for i in range(int(plan[at.STOPS])):
@@ -76,7 +76,7 @@ def _dies_out(plan: Vector, period: float, dying: float) -> bool:
     return radius(q, other, m) < dying
 
 
-@apart
+@not_inlined
 def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     """See `flow.undisturbed`: 2 if so, for its extremes are not written."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
@@ -84,7 +84,7 @@ def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int
         return 0
     enter_mode(plan, 0)
     push, clock = int(plan[at.PUSH]), at.PARTS + 2 * n + count + 1
-    steady, sine, cosine, swing = parts_room(), parts_room(), parts_room(), parts_room()
+    steady, sine, cosine, swing = parts_buffer(), parts_buffer(), parts_buffer(), parts_buffer()
     for i in range(n):
         steady[i], steady[n + i] = plan[int(plan[at.CONSTANT]) + i], 0.0
     if not _statics(plan, steady):

@@ -12,9 +12,9 @@ from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.assembly.series import to_bernstein
 from vibroimpact.engine.assembly.tables import table_of_flight, travel_by_tables
 from vibroimpact.engine.assembly.vectors import combine
-from vibroimpact.engine.channels import FORCE, series_room
+from vibroimpact.engine.channels import FORCE, series_buffer
 from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond, stack
 
 U_LEAST, U_MOST, A_LEAST, A_MOST = range(4)
@@ -35,9 +35,9 @@ _DEEPEST = 40
 _ROUNDING = 1e-15
 """Of a series: an extreme that stands out by less is rounding."""
 
-_range_room = stack(2)
-_bernstein_room = stack(_DEGREE + 1)
-_parts_room = stack((_DEEPEST + 2) * (_DEGREE + 4))
+_range_buffer = stack(2)
+_bernstein_buffer = stack(_DEGREE + 1)
+_parts_buffer = stack((_DEEPEST + 2) * (_DEGREE + 4))
 
 
 def count(masses: int, stops: int) -> int:
@@ -96,8 +96,8 @@ def _turn(a: Vector, order: int, low: float, high: float) -> float:
     return value
 
 
-@apart
-def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
+@not_inlined
+def extend_range(plan: Vector, a: Vector, order: int, buffer: Vector) -> None:
     """Widen a range, the two numbers of `room`, by the values of a power series on [0, 1].
 
     A part on which the differences of the Bernstein coefficients change their sign once has one
@@ -106,11 +106,11 @@ def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
     spread = 0.0
     for j in range(1, order + 1):
         spread += abs(a[j])
-    if room[0] <= a[0] - spread and a[0] + spread <= room[1]:
+    if buffer[0] <= a[0] - spread and a[0] + spread <= buffer[1]:
         return
     for j in range(order + 1, int(plan[at.ORDER]) + 1):
         a[j] = 0.0
-    parts = _parts_room()
+    parts = _parts_buffer()
     size = _DEGREE + 4
     low_at, high_at, depth_at = _DEGREE + 1, _DEGREE + 2, _DEGREE + 3
     to_bernstein(plan, a, parts)
@@ -119,8 +119,8 @@ def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
     while left > 0:
         left -= 1
         b = beyond(parts, left * size)
-        room[0] = min(room[0], b[0], b[_DEGREE])
-        room[1] = max(room[1], b[0], b[_DEGREE])
+        buffer[0] = min(buffer[0], b[0], b[_DEGREE])
+        buffer[1] = max(buffer[1], b[0], b[_DEGREE])
         least, most, turns, before = b[0], b[0], 0, 0.0
         for j in range(1, _DEGREE + 1):
             least, most = min(least, b[j]), max(most, b[j])
@@ -130,14 +130,14 @@ def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
             if step != 0.0:
                 before = step
         slack = _ROUNDING * max(abs(least), abs(most))
-        if room[0] - slack <= least and most <= room[1] + slack:
+        if buffer[0] - slack <= least and most <= buffer[1] + slack:
             continue
         low, high, depth = b[low_at], b[high_at], b[depth_at]
         if turns == 0 or depth >= _DEEPEST:
             continue
         if turns == 1:
-            found = _turn(a, order, low, high)
-            room[0], room[1] = min(room[0], found), max(room[1], found)
+            extreme = _turn(a, order, low, high)
+            buffer[0], buffer[1] = min(buffer[0], extreme), max(buffer[1], extreme)
             continue
         after = beyond(parts, (left + 1) * size)
         middle = 0.5 * (low + high)
@@ -175,13 +175,13 @@ def staying(range_of: Any) -> Any:
         if plan[at.STRETCH_MODE] != 0.0 or not plan[at.SLOTS] > 0.0 or not plan[at.LENGTH] > 0.0:
             return False
         size = 2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1
-        b, x = _bernstein_room(), beyond(plan, int(plan[at.PIECE_Y]))
-        room = beyond(plan, int(plan[at.SCRATCH]))
+        b, x = _bernstein_buffer(), beyond(plan, int(plan[at.PIECE_Y]))
+        buffer = beyond(plan, int(plan[at.SCRATCH]))
         for i in range(size):
             x[i] = plan[int(plan[at.START]) + i]
         for piece in range(pieces(plan)):
             if piece > 0:
-                travel_by_tables(plan, table_of_flight(plan), piece_length(plan), x, room)
+                travel_by_tables(plan, table_of_flight(plan), piece_length(plan), x, buffer)
             for c in range(count):
                 rows = int(plan[at.SEEN]) + c * 16 * size
                 combine(beyond(plan, rows), x, size, b)
@@ -195,7 +195,7 @@ def staying(range_of: Any) -> Any:
                     return False
         return True
 
-    return apart(stays)
+    return not_inlined(stays)
 
 
 _stays = staying(_range_of)
@@ -208,9 +208,9 @@ def observing(channels: Any) -> Any:
     def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
         """Widen the ranges by the last stretch. One-sided values at both its ends count."""
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
-        a, b = series_room(), series_room()
+        a, b = series_buffer(), series_buffer()
         of_stops = beyond(notes, OF_MASS * n + OF_BASE)
-        range_ = _range_room()
+        range_ = _range_buffer()
         left = 0 if _stays(plan, 2 * n + 1, notes) else pieces(plan)
         if left > 0:
             open_stretch(plan)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.state import MOST_PARTS
 
@@ -18,7 +18,7 @@ _DEPENDENT = 1e-12
 _leaders = stack(MOST_PARTS)
 
 
-@apart
+@not_inlined
 def enter_mode(plan: Vector, mode: int) -> None:
     """List the pressed and the resting stops of a mode, and bound its rate."""
     if int(plan[at.MODE]) == mode:
@@ -70,8 +70,8 @@ def _rate(plan: Vector) -> float:
         k *= rest
         c *= rest
         rate = max(rate, 0.5 * (c + math.sqrt(c * c + 4.0 * k)))
-    found: float = max(rate, plan[at.HIGHEST])
-    return found
+    bound: float = max(rate, plan[at.HIGHEST])
+    return bound
 
 
 @kernel

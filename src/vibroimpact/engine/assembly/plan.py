@@ -180,14 +180,14 @@ def make_vector(
     blocks: list[tuple[int, Vector]] = []
     end = at.HEADER
 
-    def room(index: int, count: int) -> None:
+    def buffer(index: int, count: int) -> None:
         nonlocal end
         header[index] = end
         end += -(-count // 8) * 8
 
     def block(index: int, content: Vector) -> None:
         blocks.append((end, np.ravel(content)))
-        room(index, content.size)
+        buffer(index, content.size)
 
     header[[at.MASSES, at.STOPS, at.WAVES, at.RECORD]] = n, count, waves, record
     header[[at.POWER, at.INTERVAL, at.MODE]] = forcing.power, forcing.interval, -1
@@ -234,37 +234,37 @@ def make_vector(
     header[at.NUMBERS] = end
 
     # What follows is only in a plan.
-    room(at.ECONOMY, at.TERMS * (at.DEGREE + 1))
-    room(at.PUSH, n * waves)
-    room(at.PRESSED_LIST, count)
-    room(at.RESTING_LIST, count)
-    room(at.FACTOR, count * count)
+    buffer(at.ECONOMY, at.TERMS * (at.DEGREE + 1))
+    buffer(at.PUSH, n * waves)
+    buffer(at.PRESSED_LIST, count)
+    buffer(at.RESTING_LIST, count)
+    buffer(at.FACTOR, count * count)
     for index in (at.Y, at.START, at.END, at.PIECE_Y):
-        room(index, width + count + 8)
+        buffer(index, width + count + 8)
     deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
     for index in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
-        room(index, 2 * count if curved else count)
-    room(at.SERIES, at.TERMS * row + 16)
-    room(at.FORCE_SERIES, at.TERMS * count)
-    room(at.BERNSTEIN, 16)
-    room(at.COEFFICIENTS, at.TERMS)
-    room(at.NODES, nodes * at.TERMS)
-    room(at.POINT, nodes * at.TERMS)
-    room(at.KEPT_Y, 2 * (width + count + 8))
-    room(at.ROOM, 64 * 16)
-    room(at.WIDTHS, 64)
-    room(at.SCRATCH, 8 * (width + count + 8))
+        buffer(index, 2 * count if curved else count)
+    buffer(at.SERIES, at.TERMS * row + 16)
+    buffer(at.FORCE_SERIES, at.TERMS * count)
+    buffer(at.BERNSTEIN, 16)
+    buffer(at.COEFFICIENTS, at.TERMS)
+    buffer(at.NODES, nodes * at.TERMS)
+    buffer(at.POINT, nodes * at.TERMS)
+    buffer(at.KEPT_Y, 2 * (width + count + 8))
+    buffer(at.ROOM, 64 * 16)
+    buffer(at.WIDTHS, 64)
+    buffer(at.SCRATCH, 8 * (width + count + 8))
 
     size = rates_size(n, count, waves)
     slots = 1 << max(min(RATES_MOST // size, 64).bit_length() - 1, 2)
     header[[at.RATES_SLOTS, at.RATES_SIZE]] = slots, size
-    room(at.POWERS, at.TERMS)
-    room(at.CODE, 3)
-    room(at.INPUTS, 1 + count)
-    room(at.OUTPUTS, 2 * (row + 2 * count + n + 16) + 48)
-    room(at.RATES, slots * size)
-    room(at.RATES_MODE, slots)
-    room(at.RATE_OF, 2 * RATES_KEPT)
+    buffer(at.POWERS, at.TERMS)
+    buffer(at.CODE, 3)
+    buffer(at.INPUTS, 1 + count)
+    buffer(at.OUTPUTS, 2 * (row + 2 * count + n + 16) + 48)
+    buffer(at.RATES, slots * size)
+    buffer(at.RATES_MODE, slots)
+    buffer(at.RATE_OF, 2 * RATES_KEPT)
 
     # Modes with few pressed stops have tables, as many as there is room for.
     size = table_size(n, count, waves)
@@ -274,12 +274,12 @@ def make_vector(
         most += 1
         modes += comb(count, most)
     header[[at.SLOTS, at.MOST_PRESSED, at.TABLE_SIZE]] = modes, most, size
-    room(at.RULES, RULES if modes else 0)
-    room(at.KEYS, 2 * max(modes, 1))
-    room(at.SLOT_OF, 2 * max(modes, 1))
-    room(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
-    room(at.TABLE, modes * size)
-    room(at.SEEN, (2 * n + 1 + len(drifts)) * 16 * width if modes else 0)
+    buffer(at.RULES, RULES if modes else 0)
+    buffer(at.KEYS, 2 * max(modes, 1))
+    buffer(at.SLOT_OF, 2 * max(modes, 1))
+    buffer(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
+    buffer(at.TABLE, modes * size)
+    buffer(at.SEEN, (2 * n + 1 + len(drifts)) * 16 * width if modes else 0)
     header[at.LENGTH_OF_PLAN] = end
 
     vector = np.zeros(int(header[at.NUMBERS]))
@@ -356,16 +356,16 @@ def partners(stops: Sequence[Stop]) -> list[float]:
 
     Alike ones are paired in their order.
     """
-    found = [-1.0] * len(stops)
+    partner_of = [-1.0] * len(stops)
     for f, stop in enumerate(stops):
         image = stop._replace(left=stop.right, right=stop.left)
         if stop.kind == at.LINK:  # all laws are odd
-            found[f] = float(f)
+            partner_of[f] = float(f)
             continue
-        free = [g for g, other in enumerate(stops) if other == image and found[g] < 0.0]
-        if found[f] < 0.0 and free:
-            found[f], found[free[0]] = float(free[0]), float(f)
-    return found
+        free = [g for g, other in enumerate(stops) if other == image and partner_of[g] < 0.0]
+        if partner_of[f] < 0.0 and free:
+            partner_of[f], partner_of[free[0]] = float(free[0]), float(f)
+    return partner_of
 
 
 def _stop(stop: Stop, n: int, acts: Vector, partner: float) -> list[float]:
@@ -396,9 +396,9 @@ def _is_diagonal(matrix: Matrix) -> bool:
 
 def _ranges(filled: NDArray[np.bool_]) -> Matrix:
     """The first of the places, and that after the last, of each row that are filled."""
-    found = np.zeros((len(filled), 2))
+    ranges = np.zeros((len(filled), 2))
     for i, row in enumerate(filled):
         places = np.flatnonzero(row)
         if len(places):
-            found[i] = places[0], places[-1] + 1
-    return found
+            ranges[i] = places[0], places[-1] + 1
+    return ranges

@@ -15,7 +15,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.acceleration import Places, drive, places, restrain
 from vibroimpact.engine.assembly.mode import move_alike
 from vibroimpact.engine.assembly.vectors import combine_ranges
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 HEAD = 8
@@ -86,7 +86,7 @@ def apply_rates(
         )
 
 
-@apart
+@not_inlined
 def _find(plan: Vector) -> None:
     """Look for the matrix of the present mode; it is the same on all branches of laws."""
     mode = int(plan[at.MODE]) & ((1 << int(plan[at.STOPS])) - 1)
@@ -141,7 +141,7 @@ def _make(plan: Vector, place: int) -> None:
     results, columns = n + of.pressed + of.resting, rates.width + rates.inputs
     unit = int(plan[at.OUTPUTS])
     forces = unit + columns
-    found = forces + of.pressed + of.resting
+    accelerations = forces + of.pressed + of.resting
     curved = -1
     for column in range(columns):
         for i in range(columns + of.pressed + of.resting):
@@ -152,22 +152,22 @@ def _make(plan: Vector, place: int) -> None:
             pressed[p] = plan[unit + rates.width + 1 + p]
         if one <= of.pressed:
             waves, constant = beyond(plan, unit + 2 * v), plan[unit + rates.width]
-            drive(plan, of, beyond(plan, unit), waves, pressed, constant, found)
+            drive(plan, of, beyond(plan, unit), waves, pressed, constant, accelerations)
         else:
             curved += 1
             while plan[of.stops + curved * at.STOP_WIDTH + at.KIND] < at.PUSHING:
                 curved += 1
             for i in range(n):
-                plan[found + i] = -plan[of.response + curved * n + i]
-        restrain(plan, of, beyond(pressed, of.pressed), found)
-        move_alike(plan, beyond(plan, found))
+                plan[accelerations + i] = -plan[of.response + curved * n + i]
+        restrain(plan, of, beyond(pressed, of.pressed), accelerations)
+        move_alike(plan, beyond(plan, accelerations))
         for b in range(rates.blocks):
             cell = place + b * rates.block + HEAD + 8 * column
             for i in range(8):
                 r = 8 * b + i
                 plan[cell + i] = 0.0
                 if r < n:
-                    plan[cell + i] = plan[found + r]
+                    plan[cell + i] = plan[accelerations + r]
                 elif r < results:
                     plan[cell + i] = plan[forces + r - n]
     _close(plan, of, rates)

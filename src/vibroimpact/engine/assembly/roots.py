@@ -14,7 +14,7 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.vectors import halve
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.memory import beyond, stack
 
 NONE = 9.0
@@ -30,7 +30,7 @@ _LONG = 4.0
 """Relaxation times on a piece from which its memory is left out of the lower bound."""
 
 
-@apart
+@not_inlined
 def first_fall(
     b: Vector,
     d: float,
@@ -51,7 +51,7 @@ def first_fall(
             return 0.0
         zeros = 1
     begin_at_zero(b, d, x_rate, zeros)
-    room, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
+    buffer, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
     left, width, waiting, splits = 0.0, 1.0, 0, 0
     while left < end:
         e = d * math.exp(-x_rate * left) if d > 0.0 and left > 0.0 else d
@@ -76,9 +76,9 @@ def first_fall(
             # With a zero at the left, the exponential must be followed there to its curvature.
             cut = 3.0 / x if e > 0.0 and x > _LONG and known > 0 else 0.5
             if cut == 0.5:
-                halve(b, beyond(plan, room + 16 * waiting))
+                halve(b, beyond(plan, buffer + 16 * waiting))
             else:
-                split(b, cut, beyond(plan, room + 16 * waiting))
+                split(b, cut, beyond(plan, buffer + 16 * waiting))
             plan[widths + waiting] = width * (1.0 - cut)
             width *= cut
             waiting += 1
@@ -89,7 +89,7 @@ def first_fall(
         left += width
         width = plan[widths + waiting]
         for j in range(_D + 1):
-            b[j] = plan[room + 16 * waiting + j]
+            b[j] = plan[buffer + 16 * waiting + j]
     return NONE
 
 
@@ -124,13 +124,13 @@ def begin_at_zero(b: Vector, d: float, x_rate: float, zeros: int) -> None:
 @inlined
 def positive(b: Vector, e: float, x: float, last: float, known: int, noise: float) -> bool:
     """Whether f is proved positive on (0, 1], but for its known zeros at 0."""
-    found = True
+    is_positive = True
     if e == 0.0 or x > _LONG:
         if e > 0.0 and known > 0:
             return False
         for j in range(_D + 1):
-            found &= (b[j] > -noise) | (j < known)
-        return found
+            is_positive &= (b[j] > -noise) | (j < known)
+        return is_positive
     if x > 0.1:
         bowl = last - e * (1.0 - x)
     else:
@@ -138,17 +138,17 @@ def positive(b: Vector, e: float, x: float, last: float, known: int, noise: floa
     for j in range(_D + 1):
         line = j * (1.0 / _D)
         square = line * ((j - 1) * (1.0 / (_D - 1)))
-        found &= (b[j] + e * (1.0 - x * line) + bowl * square > -noise) | (j < known)
-    return found
+        is_positive &= (b[j] + e * (1.0 - x * line) + bowl * square > -noise) | (j < known)
+    return is_positive
 
 
 @inlined
 def falling(b: Vector, e: float, x: float, last: float, known: int) -> bool:
     """Whether f is proved to fall all the way; a slope that is zero by construction may be so."""
-    found = True
+    is_falling = True
     for j in range(_D):
-        found &= (_D * (b[j + 1] - b[j]) - x * last < 0.0) | ((e == 0.0) & (j < known - 1))
-    return found
+        is_falling &= (_D * (b[j + 1] - b[j]) - x * last < 0.0) | ((e == 0.0) & (j < known - 1))
+    return is_falling
 
 
 @kernel

@@ -66,7 +66,7 @@ def place(plan: Vector, state: Vector) -> None:
     n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[at.STATE_MODE])
     u, v = beyond(state, at.PARTS), beyond(state, at.PARTS + n)
     deformation = beyond(state, at.PARTS + 2 * n)
-    found = 0
+    new_mode = 0
     for f in range(count):
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
         reach = closing(plan, f, u) - plan[one + at.GAP]
@@ -78,18 +78,18 @@ def place(plan: Vector, state: Vector) -> None:
                 for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
                     u[i] -= plan[int(plan[at.RESPONSE]) + f * n + i] * push
             if mode >> f & 1 and reach >= 0.0 and closing(plan, f, v) == 0.0:
-                found |= 1 << f
+                new_mode |= 1 << f
         else:
             dashpot = plan[one + at.STOP_DAMPING]
             if mode >> f & 1 or reach > d:
                 force = plan[one + at.STOP_STIFFNESS] * reach + dashpot * closing(plan, f, v)
                 d = max(reach, 0.0)
                 if reach >= 0.0 and force >= 0.0:
-                    found |= 1 << f
-            if dashpot == 0.0 and not found >> f & 1:
+                    new_mode |= 1 << f
+            if dashpot == 0.0 and not new_mode >> f & 1:
                 d = 0.0
         deformation[f] = d
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(found), 0.0
+    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode), 0.0
     state[at.PARTS + 2 * n + count] = 0.0
 
 
@@ -154,11 +154,11 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
         _mirror_parts(plan, beyond(q, i * width))
     unpack_fresh(plan, state[at.STATE_FRESH])
     zeros = beyond(plan, int(plan[at.ZEROS]))
-    mode, found = int(state[at.STATE_MODE]), 0
+    mode, new_mode = int(state[at.STATE_MODE]), 0
     for f in range(count):
         other = _partner(plan, f)
         if mode >> f & 1:
-            found |= 1 << other
+            new_mode |= 1 << other
         if f < other:
             zeros[f], zeros[other] = zeros[other], zeros[f]
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(found), pack_fresh(plan)
+    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode), pack_fresh(plan)

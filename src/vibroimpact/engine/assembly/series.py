@@ -9,7 +9,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.acceleration import places
 from vibroimpact.engine.assembly.rates import apply_rates, rates_of_mode
 from vibroimpact.engine.assembly.vectors import combine_sixteen, gains, scale
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 _ROUNDING = 1e-18
@@ -95,7 +95,7 @@ def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
 
     y is u, v, w, 1; for a disturbance, its w and its last number are 0.
     """
-    return apart(expand_masses)
+    return not_inlined(expand_masses)
 
 
 _expand = expanding()
@@ -121,7 +121,7 @@ def gain_all(plan: Vector, tau: float, out: Vector) -> None:
         gains(beyond(plan, series + i), row, order, tau, beyond(out, i))
 
 
-@apart
+@not_inlined
 def travel_by_series(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
     """Carry the state, of which the series was made, on in place; free deformations stay."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])

@@ -15,9 +15,9 @@ from vibroimpact.engine.assembly.channels import close_stretch, drift_ends, obse
 from vibroimpact.engine.assembly.events import LEVELS, closing
 from vibroimpact.engine.assembly.measures import extend_range, staying, stops_of
 from vibroimpact.engine.assembly.mode import hold
-from vibroimpact.engine.channels import DEFORMATION, FORCE, evaluate, series_room
+from vibroimpact.engine.channels import DEFORMATION, FORCE, evaluate, series_buffer
 from vibroimpact.engine.event import CONTACT, GIVEN_UP, IMPACT, LIMIT, at_stop, kind_of, stop_of
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.observers import phases, record
 from vibroimpact.engine.observers.phases import DRIFT, MASS, STOP, SYSTEM, begin_row
@@ -27,15 +27,15 @@ from vibroimpact.engine.state import FRESH
 _AT_REST = 1e-12
 """A closing speed below this share of the largest speed is none: rest begins without an impact."""
 
-_range_room = stack(2)
+_range_buffer = stack(2)
 
 
 @kernel
 def width(plan: Vector) -> int:
     """Length of the row of a phase."""
     masses, stops, drifts = int(plan[at.MASSES]), stops_of(plan), int(plan[at.DRIFTS])
-    found: int = SYSTEM + MASS * masses + STOP * stops + DRIFT * drifts
-    return found
+    length: int = SYSTEM + MASS * masses + STOP * stops + DRIFT * drifts
+    return length
 
 
 @kernel
@@ -106,7 +106,7 @@ def recorded_kind(plan: Vector, fresh: float) -> float:
     return record.IMPACT if struck else record.CONTACT_BEGINS
 
 
-@apart
+@not_inlined
 def _add_event(plan: Vector, before: Vector, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the impact takes.
 
@@ -118,8 +118,8 @@ def _add_event(plan: Vector, before: Vector, row: Vector) -> None:
     if kind_of(event) != IMPACT:
         return
     ahead, behind = beyond(plan, int(plan[at.END]) + n), beyond(plan, int(plan[at.Y]) + n)
-    room = beyond(plan, int(plan[at.SCRATCH]))
-    change, impulses = room, beyond(room, n)
+    buffer = beyond(plan, int(plan[at.SCRATCH]))
+    change, impulses = buffer, beyond(buffer, n)
     lost = 0.0
     for i in range(n):
         change[i] = ahead[i] - behind[i]
@@ -145,7 +145,7 @@ def _add_event(plan: Vector, before: Vector, row: Vector) -> None:
         of_stops[STOP * f + phases.HIT] = lost
 
 
-@apart
+@not_inlined
 def _add_ends(plan: Vector, row: Vector) -> None:
     """Write the velocities at the end, how fast stops are met, and what free ones have lost."""
     n, mode = int(plan[at.MASSES]), int(plan[at.STRETCH_MODE])
@@ -217,7 +217,7 @@ def _powers(channels: Any) -> Any:
                     lost = rate * evaluate(a, order, ABSCISSAE[k])
                 of_stops[STOP * f + phases.LOSES] += share * lost
 
-    return apart(add_powers_of_masses)
+    return not_inlined(add_powers_of_masses)
 
 
 def measuring(channels: Any) -> Any:
@@ -231,7 +231,7 @@ def measuring(channels: Any) -> Any:
 
     def measure(plan: Vector, before: Vector, everything: bool, row: Vector) -> None:
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
-        a, b, range_ = series_room(), series_room(), _range_room()
+        a, b, range_ = series_buffer(), series_buffer(), _range_buffer()
         of_stops = beyond(row, SYSTEM + MASS * n)
         count = 2 * n + 1 + int(plan[at.DRIFTS])
         left = pieces(plan) if plan[at.LENGTH] > 0.0 else 0

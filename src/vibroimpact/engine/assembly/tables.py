@@ -25,7 +25,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import observed
 from vibroimpact.engine.assembly.series import expand_state, gain_all, to_bernstein, watched_series
 from vibroimpact.engine.assembly.vectors import combine, combine_sixteen
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 LEVELS = 4
@@ -84,18 +84,18 @@ def rules() -> Any:
             for j in range(d + 1)
         ]
     )
-    found = []
+    matrices = []
     for level in range(LEVELS):
         pieces = 1 << level
         for q in range(pieces):
             here = [
                 basis(d, x * pieces - q) if int(x * pieces) == q else [0.0] * (d + 1) for x in nodes
             ]
-            found += [(fit @ here).T, (lift @ restricted(q / pieces, (q + 1) / pieces)).T]
-    return np.concatenate([np.ravel(one) for one in found])
+            matrices += [(fit @ here).T, (lift @ restricted(q / pieces, (q + 1) / pieces)).T]
+    return np.concatenate([np.ravel(one) for one in matrices])
 
 
-@apart
+@not_inlined
 def table_of_mode(plan: Vector) -> int:
     """Where the tables of the present mode begin, made if need be; 0 if it has none."""
     known = int(plan[at.TABLE_NOW])
@@ -128,9 +128,9 @@ def table_of_flight(plan: Vector) -> int:
     """Where the tables of flight begin, which were made."""
     mode, known = plan[at.MODE], plan[at.TABLE_NOW]
     plan[at.MODE], plan[at.TABLE_NOW] = 0.0, -1.0
-    found: int = table_of_mode(plan)
+    start: int = table_of_mode(plan)
     plan[at.MODE], plan[at.TABLE_NOW] = mode, known
-    return found
+    return start
 
 
 @kernel
@@ -145,7 +145,7 @@ def gather(plan: Vector, x: Vector) -> None:
         x[base + j] = plan[deformation + int(plan[listed + j])]
 
 
-@apart
+@not_inlined
 def make_tables(plan: Vector, place: int) -> None:
     """Write the tables of the present mode."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
@@ -234,9 +234,9 @@ def make_tables(plan: Vector, place: int) -> None:
 
 
 @kernel
-def _compose(plan: Vector, source: int, target: int, width: int, room: int) -> None:
+def _compose(plan: Vector, source: int, target: int, width: int, buffer: int) -> None:
     """Twice a propagator, both less the identity: 2 E + E E."""
-    x, out = beyond(plan, room), beyond(plan, room + (width + 7) // 8 * 8)
+    x, out = beyond(plan, buffer), beyond(plan, buffer + (width + 7) // 8 * 8)
     for column in range(width):
         for i in range(width):
             x[i] = plan[source + (i // 8 * width + column) * 8 + i % 8]
@@ -297,14 +297,14 @@ def _screen(plan: Vector, place: int) -> None:
 
 
 @kernel
-def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, room: Vector) -> bool:
+def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, buffer: Vector) -> bool:
     """Whether a watched function is proved positive on a leap."""
     width = int(plan[place + WIDTH])
     number = level * int(plan[at.STOPS]) + f
-    combine(beyond(plan, int(plan[place + LOW]) + number * width * 8), x, width, room)
+    combine(beyond(plan, int(plan[place + LOW]) + number * width * 8), x, width, buffer)
     least = min(
-        min(min(room[0], room[1]), min(room[2], room[3])),
-        min(min(room[4], room[5]), min(room[6], room[7])),
+        min(min(buffer[0], buffer[1]), min(buffer[2], buffer[3])),
+        min(min(buffer[4], buffer[5]), min(buffer[6], buffer[7])),
     )
     if not least > 0.0:
         return False
@@ -312,8 +312,8 @@ def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, room: Vect
     error = 0.0
     for i in range(width):
         error += bounds[i] * abs(x[i])
-    found: bool = least > error
-    return found
+    is_proved: bool = least > error
+    return is_proved
 
 
 @kernel
@@ -326,17 +326,17 @@ def exact_rows(plan: Vector, place: int, f: int, x: Vector, b: Vector) -> None:
 
 
 @kernel
-def propagate(plan: Vector, matrix: int, width: int, x: Vector, room: Vector) -> None:
+def propagate(plan: Vector, matrix: int, width: int, x: Vector, buffer: Vector) -> None:
     """X += E x."""
     blocks = (width + 7) // 8
     for k in range(blocks):
-        combine(beyond(plan, matrix + k * width * 8), x, width, beyond(room, 8 * k))
+        combine(beyond(plan, matrix + k * width * 8), x, width, beyond(buffer, 8 * k))
     for i in range(width):
-        x[i] += room[i]
+        x[i] += buffer[i]
 
 
 @kernel
-def travel_by_tables(plan: Vector, place: int, time: float, x: Vector, room: Vector) -> None:
+def travel_by_tables(plan: Vector, place: int, time: float, x: Vector, buffer: Vector) -> None:
     """Carry x on over any time up to the longest leap."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
     width = int(plan[place + WIDTH])
@@ -345,29 +345,29 @@ def travel_by_tables(plan: Vector, place: int, time: float, x: Vector, room: Vec
     left = time
     for level in range(LEVELS - 1, -1, -1):
         if left >= h * (1 << level):
-            propagate(plan, int(plan[place + LEAPS]) + level * square, width, x, room)
+            propagate(plan, int(plan[place + LEAPS]) + level * square, width, x, buffer)
             left -= h * (1 << level)
     if left <= 0.0:
         return
     j = int(left / h * _FRACTIONS**2 + 0.5)
     coarse, fine = j // _FRACTIONS, j % _FRACTIONS
     if coarse == _FRACTIONS:
-        propagate(plan, int(plan[place + LEAPS]), width, x, room)
+        propagate(plan, int(plan[place + LEAPS]), width, x, buffer)
     elif coarse > 0:
-        propagate(plan, int(plan[place + FRACTION]) + coarse * square, width, x, room)
+        propagate(plan, int(plan[place + FRACTION]) + coarse * square, width, x, buffer)
     if fine > 0:
-        propagate(plan, int(plan[place + FINE]) + fine * square, width, x, room)
+        propagate(plan, int(plan[place + FINE]) + fine * square, width, x, buffer)
     t = left - h * j * (1.0 / _FRACTIONS**2)
     if t == 0.0:
         return
     for k in range((_JETS * n + 7) // 8):
         jets = int(plan[place + JETS]) + k * width * 8
-        combine(beyond(plan, jets), x, width, beyond(room, 8 * k))
+        combine(beyond(plan, jets), x, width, beyond(buffer, 8 * k))
     tau = t / h
     base = 2 * n + w + 1
-    gains = beyond(room, (_JETS * n + 7) // 8 * 8)
+    gains = beyond(buffer, (_JETS * n + 7) // 8 * 8)
     for i in range(n):
-        a, b, c, d = room[i], room[n + i], room[2 * n + i], room[3 * n + i]
+        a, b, c, d = buffer[i], buffer[n + i], buffer[2 * n + i], buffer[3 * n + i]
         gains[i] = t * (x[n + i] + tau * (a / 2 + tau * (b / 3 + tau * (c / 4 + tau * (d / 5)))))
         x[i] += gains[i]
         x[n + i] += tau * (a + tau * (b + tau * (c + tau * d)))

@@ -37,7 +37,7 @@ from vibroimpact.engine.event import (
     kind_of,
     stop_of,
 )
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import DAMPING, HITS
 from vibroimpact.engine.stops.rebound import Rebound, rebound
@@ -76,7 +76,7 @@ def disturbing(tie: Any) -> Any:
 unit_disturbances = disturbing(tie)
 
 
-@apart
+@not_inlined
 def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
     """Carry the rows of q through the last stretch and its event."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
@@ -136,8 +136,8 @@ def rebound_at_end(plan: Vector, f: int) -> Rebound:
     """What a rigid stop makes of the closing speed at the end of the last stretch."""
     arrived = beyond(plan, int(plan[at.END]) + int(plan[at.MASSES]))
     place = int(plan[at.STOP]) + f * at.STOP_WIDTH + at.REBOUND
-    found: Rebound = rebound(plan, place, max(closing(plan, f, arrived), 0.0))
-    return found
+    law: Rebound = rebound(plan, place, max(closing(plan, f, arrived), 0.0))
+    return law
 
 
 @kernel

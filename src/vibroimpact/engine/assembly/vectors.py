@@ -123,7 +123,7 @@ def _eight(builder: Any, memory: Any, index: Any) -> Any:
     return builder.load(builder.bitcast(at, _EIGHT.as_pointer()), typ=_EIGHT, align=8)
 
 
-def _keep(builder: Any, eight: Any, memory: Any, index: Any) -> None:
+def _store(builder: Any, eight: Any, memory: Any, index: Any) -> None:
     at = builder.gep(memory, [index], source_etype=ir.DoubleType())
     builder.store(eight, builder.bitcast(at, _EIGHT.as_pointer()), align=8)
 
@@ -175,7 +175,7 @@ def _combine(typing: Any, rows: Any, x: Any, n: Any, out: Any) -> Any:
         with cgutils.for_range(builder, builder.and_(n, _word(1))):
             add(builder.sub(n, _word(1)), 0)
         parts = [builder.load(one, typ=_EIGHT) for one in totals]
-        _keep(builder, builder.fadd(*parts), out, _word(0))
+        _store(builder, builder.fadd(*parts), out, _word(0))
         return context.get_dummy_value()
 
     return types.void(_DOUBLES, _DOUBLES, types.int64, _DOUBLES), build
@@ -203,7 +203,7 @@ def _combine_sixteen(typing: Any, rows: Any, x: Any, n: Any, out: Any) -> Any:
             add(builder.sub(n, _word(1)), 0)
         for half in range(2):
             parts = [builder.load(totals[2 * part + half], typ=_EIGHT) for part in range(2)]
-            _keep(builder, builder.fadd(*parts), out, _word(8 * half))
+            _store(builder, builder.fadd(*parts), out, _word(8 * half))
         return context.get_dummy_value()
 
     return types.void(_DOUBLES, _DOUBLES, types.int64, _DOUBLES), build
@@ -242,7 +242,7 @@ def _combine_ranges(
         add(early, y0, y1, y, w1)
         add(late, v0, v1, x, _word(0))
         sums = [builder.load(one, typ=_EIGHT) for one in (early, late)]
-        _keep(builder, builder.fadd(*sums), out, _word(0))
+        _store(builder, builder.fadd(*sums), out, _word(0))
         return context.get_dummy_value()
 
     n = types.int64
@@ -257,7 +257,7 @@ def _scale(typing: Any, x: Any, factor: Any, out: Any, n: Any) -> Any:
         blocks = builder.lshr(builder.add(n, _word(7)), _word(3))
         with cgutils.for_range(builder, blocks) as loop:
             i = builder.shl(loop.index, _word(3))
-            _keep(builder, builder.fmul(_eight(builder, x, i), every), out, i)
+            _store(builder, builder.fmul(_eight(builder, x, i), every), out, i)
         return context.get_dummy_value()
 
     return types.void(_DOUBLES, types.float64, _DOUBLES, types.int64), build
@@ -294,7 +294,7 @@ def _series_sum(weighted: bool) -> Any:
         upper, lower = (builder.load(one, typ=_EIGHT) for one in (high, low))
         ones, twos = builder.select(is_odd, upper, lower), builder.select(is_odd, lower, upper)
         total = builder.fmul(_fused(builder, twos, t, ones), t)
-        _keep(builder, total, out, _word(0))
+        _store(builder, total, out, _word(0))
         return context.get_dummy_value()
 
     return build
@@ -338,12 +338,12 @@ def _halve(typing: Any, b: Any, right: Any) -> Any:
 
         high = block(False, False)
         middle = builder.extract_element(high, ir.Constant(_LANE, 7))
-        _keep(builder, block(True, False), b, _word(0))
-        _keep(builder, high, b, _word(8))
+        _store(builder, block(True, False), b, _word(0))
+        _store(builder, high, b, _word(8))
         # Both halves meet in the same number.
         first = builder.insert_element(block(False, True), middle, ir.Constant(_LANE, 0))
-        _keep(builder, first, right, _word(0))
-        _keep(builder, block(True, True), right, _word(8))
+        _store(builder, first, right, _word(0))
+        _store(builder, block(True, True), right, _word(8))
         return context.get_dummy_value()
 
     return types.void(_DOUBLES, _DOUBLES), build
@@ -374,20 +374,20 @@ def _convolving(weighted: bool) -> Any:
         left = _spread(builder, rest, ir.VectorType(_WORD, 8))
         inside = builder.icmp_signed("<", lanes, left)
         last = builder.select(inside, builder.fmul(*pair(builder.sub(n, rest))), _zero())
-        found = builder.fadd(builder.load(total, typ=_EIGHT), last)
+        sums = builder.fadd(builder.load(total, typ=_EIGHT), last)
         for width in (4, 2):
             halves = [
                 builder.shuffle_vector(
-                    found,
-                    found,
+                    sums,
+                    sums,
                     ir.Constant(
                         ir.VectorType(_LANE, width), list(range(half * width, (half + 1) * width))
                     ),
                 )
                 for half in range(2)
             ]
-            found = builder.fadd(*halves)
-        ends = [builder.extract_element(found, ir.Constant(_LANE, k)) for k in range(2)]
+            sums = builder.fadd(*halves)
+        ends = [builder.extract_element(sums, ir.Constant(_LANE, k)) for k in range(2)]
         return builder.fadd(*ends)
 
     return build

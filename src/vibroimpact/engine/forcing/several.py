@@ -47,7 +47,7 @@ WEIGHTS = PLAN
 """Where the weights of sin nθ and cos nθ begin in a plan, two for each n from 1 on."""
 
 
-def room(count: int) -> int:
+def plan_length(count: int) -> int:
     """Length of the plan of so many harmonics."""
     return PLAN + 2 * count + (count - 1) * (PLAN - TABLES)
 

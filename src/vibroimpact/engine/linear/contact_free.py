@@ -37,7 +37,7 @@ def undisturbed(
 
     Returns
     -------
-    found, displacement, acceleration, transmitted, motion
+    is_flight, displacement, acceleration, transmitted, motion
         Half the excursions (m, m/s²) of displacement, of the mass's absolute acceleration and of
         the transmitted force per unit mass, and the motion at the section.
     """

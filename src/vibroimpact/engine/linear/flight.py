@@ -109,7 +109,7 @@ def without(bounds: Bounds, way: int) -> Bounds:
 
 
 @inlined
-def placed(way: int, t: float, row: Row, bounds: Bounds) -> tuple[int, float, Row, float, float]:
+def on_bumper(way: int, t: float, row: Row, bounds: Bounds) -> tuple[int, float, Row, float, float]:
     """The mass exactly at the bumper that it touches."""
     x, v, s, c = row
     if way == ABOVE:
@@ -125,7 +125,7 @@ def touched(
 ) -> tuple[int, float, Row, float, float]:
     """A contact y steps behind a state."""
     later = plan[table + H] * y
-    return placed(way, later, travel(plan, table, y, row), faded(bounds, later))
+    return on_bumper(way, later, travel(plan, table, y, row), faded(bounds, later))
 
 
 @kernel
@@ -233,7 +233,7 @@ def flight(
         if way != WITHIN:
             upper, lower, _, _, rate_upper, rate_lower = bounds
             here = Bounds(upper, lower, up, down, rate_upper, rate_lower)
-            return placed(way, t + (i + y) * h, end, faded(here, y * h))
+            return on_bumper(way, t + (i + y) * h, end, faded(here, y * h))
         if span <= NODES:
             row = ended(plan, table, row, span)
             bounds = faded(bounds, limit - t)

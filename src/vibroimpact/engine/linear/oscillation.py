@@ -20,8 +20,8 @@ def excess(a: float, b: float, product: float) -> float:
     """What a b − product is, to twice the digits, where they agree to single precision."""
     high_a, high_b = float64(float32(a)), float64(float32(b))
     low_a, low_b = a - high_a, b - high_b
-    found: float = ((high_a * high_b - product) + high_a * low_b) + (low_a * high_b + low_a * low_b)
-    return found
+    delta: float = ((high_a * high_b - product) + high_a * low_b) + (low_a * high_b + low_a * low_b)
+    return delta
 
 
 @kernel

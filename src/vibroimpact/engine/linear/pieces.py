@@ -104,20 +104,20 @@ def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def keep_cursor(plan: Vector, cursor: Cursor, room: Vector) -> None:
+def write_cursor(plan: Vector, cursor: Cursor, buffer: Vector) -> None:
     """Write a cursor into memory, of at most `channels.CURSOR_SIZE` numbers."""
     early, table, i, length, age, t, span, start = cursor
-    room[0], room[1], room[2], room[3] = early, table, i, length
-    room[4], room[5], room[6] = age, t, span
-    room[7], room[8], room[9], room[10] = start
+    buffer[0], buffer[1], buffer[2], buffer[3] = early, table, i, length
+    buffer[4], buffer[5], buffer[6] = age, t, span
+    buffer[7], buffer[8], buffer[9], buffer[10] = start
 
 
 @kernel
-def kept_cursor(plan: Vector, room: Vector) -> Cursor:
+def read_cursor(plan: Vector, buffer: Vector) -> Cursor:
     """The cursor that was written."""
-    start = Row(room[7], room[8], room[9], room[10])
-    early, table, i = int(room[0]), int(room[1]), int(room[2])
-    return Cursor(early, table, i, room[3], room[4], room[5], room[6], start)
+    start = Row(buffer[7], buffer[8], buffer[9], buffer[10])
+    early, table, i = int(buffer[0]), int(buffer[1]), int(buffer[2])
+    return Cursor(early, table, i, buffer[3], buffer[4], buffer[5], buffer[6], start)
 
 
 @kernel
@@ -237,7 +237,7 @@ def sample_stretch(
     i: int,
     n: int,
     series: Vector,
-    room: Vector,
+    buffer: Vector,
 ) -> Cursor:
     """The motion at n instants, not before where the cursor is; return where they end.
 
@@ -267,7 +267,7 @@ def sample_stretch(
             expanded_at_node(plan, cursor, here, series)
             about = here
         x, v = horner(series, y - here)
-        room[j], room[speeds + j] = x, v * rate
+        buffer[j], buffer[speeds + j] = x, v * rate
     sign = direction(before.mode)
     table, base = TABLES + SIZE * before.mode, plan[par.BASE]
     held = plan[cursor.table + RESTING] != 0.0
@@ -276,13 +276,13 @@ def sample_stretch(
             tau = max((i + j) * step - t, 0.0)
             s, c = turned(plan, before.clock[0], before.clock[1], tau)
             if held:
-                room[accelerations + j] = sign * (base * value(plan, s, c))
+                buffer[accelerations + j] = sign * (base * value(plan, s, c))
             else:
-                row = Row(room[j], room[speeds + j], sign * s, sign * c)
-                room[accelerations + j] = absolute_acceleration(plan, before.mode, row)
+                row = Row(buffer[j], buffer[speeds + j], sign * s, sign * c)
+                buffer[accelerations + j] = absolute_acceleration(plan, before.mode, row)
         return cursor
     h, unit = plan[table + H], plan[table + RATE] * plan[table + RATE]
     d, k, c = plan[table + SCALED_D], plan[table + SCALED_K], plan[table + SCALED_C]
     for j in range(n):
-        room[accelerations + j] = ((d - k * room[j]) - c * (room[speeds + j] * h)) * unit
+        buffer[accelerations + j] = ((d - k * buffer[j]) - c * (buffer[speeds + j] * h)) * unit
     return cursor

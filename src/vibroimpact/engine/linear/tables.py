@@ -135,11 +135,11 @@ def _copy(plan: Vector, table: int, slot: int) -> None:
     """Take over the early and the late table of another mode."""
     for late in range(2):
         to = table + late * LATE_TABLES
-        given = TABLES + SIZE * slot + late * LATE_TABLES
-        plan[to + VALID_FROM] = plan[given + VALID_FROM]
-        if plan[given + VALID_FROM] < math.inf:
+        source = TABLES + SIZE * slot + late * LATE_TABLES
+        plan[to + VALID_FROM] = plan[source + VALID_FROM]
+        if plan[source + VALID_FROM] < math.inf:
             for i in range(SIZE):
-                plan[to + i] = plan[given + i]
+                plan[to + i] = plan[source + i]
 
 
 @kernel

@@ -64,7 +64,7 @@ NOWHERE = Enclosed(math.inf, -math.inf, math.inf, -math.inf, -math.inf)
 
 @kernel
 def bound_window(
-    plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
+    plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, buffer: Vector
 ) -> tuple[bool, Enclosed]:
     """Check the nodes of a window, at whose first piece the cursor is.
 
@@ -87,7 +87,7 @@ def bound_window(
     """
     table, mode = cursor.table, before.mode
     if mode == BOTH or plan[table + RESTING] != 0.0 or plan[par.BASE] == 0.0:
-        room[_OFF] = math.inf
+        buffer[_OFF] = math.inf
         return False, seen
     h, unit = plan[table + H], plan[table + RATE] * plan[table + RATE]
     d, k, c = plan[table + SCALED_D], plan[table + SCALED_K], plan[table + SCALED_C]
@@ -112,9 +112,9 @@ def bound_window(
         w = d - k * x - c * v
         a, f, bent = w * unit, stiffness * x + damping * v, w - pull(plan, table, s, co)
         at = _ROW * i
-        room[at], room[at + 1], room[at + 2] = x, a, f
-        room[at + 3], room[at + 4] = v, -(k * v + c * bent) * unit
-        room[at + 5] = stiffness * v + damping * bent
+        buffer[at], buffer[at + 1], buffer[at + 2] = x, a, f
+        buffer[at + 3], buffer[at + 4] = v, -(k * v + c * bent) * unit
+        buffer[at + 5] = stiffness * v + damping * bent
         x_least, x_most = min(x_least, x), max(x_most, x)
         a_least, a_most = min(a_least, a), max(a_most, a)
         force = max(force, f)
@@ -122,12 +122,12 @@ def bound_window(
     within &= seen.a_least <= a_least - off_a and a_most + off_a <= seen.a_most
     if within and force + off_f <= seen.force:
         return True, seen
-    room[_OFF], room[_OFF + 1], room[_OFF + 2] = off, off_a, off_f
-    room[_OFF + 3], room[_OFF + 4] = 0.125 * third, 0.125 * (k * third + c * fourth) * unit
-    room[_OFF + 5] = 0.125 * (stiffness * third + damping * fourth)
+    buffer[_OFF], buffer[_OFF + 1], buffer[_OFF + 2] = off, off_a, off_f
+    buffer[_OFF + 3], buffer[_OFF + 4] = 0.125 * third, 0.125 * (k * third + c * fourth) * unit
+    buffer[_OFF + 5] = 0.125 * (stiffness * third + damping * fourth)
     x_least, x_most, a_least, a_most, force = seen
     for i in range(min(NODES, int(cursor.span)) + 1):
-        x, a, f = room[_ROW * i], room[_ROW * i + 1], room[_ROW * i + 2]
+        x, a, f = buffer[_ROW * i], buffer[_ROW * i + 1], buffer[_ROW * i + 2]
         x_least, x_most = min(x_least, x), max(x_most, x)
         a_least, a_most = min(a_least, a), max(a_most, a)
         force = max(force, f)
@@ -135,26 +135,26 @@ def bound_window(
 
 
 @kernel
-def _off(room: Vector, i: int, which: int) -> float:
+def _off(buffer: Vector, i: int, which: int) -> float:
     """How far one of the numbers may be off its chord on an interval: not where it only rises."""
-    one, other = room[_ROW * i + which + 3], room[_ROW * (i + 1) + which + 3]
-    if one * other > 0.0 and min(abs(one), abs(other)) > room[_OFF + which + 3]:
+    one, other = buffer[_ROW * i + which + 3], buffer[_ROW * (i + 1) + which + 3]
+    if one * other > 0.0 and min(abs(one), abs(other)) > buffer[_OFF + which + 3]:
         return 0.0
-    off: float = room[_OFF + which]
+    off: float = buffer[_OFF + which]
     return off
 
 
 @kernel
-def enclosed(plan: Vector, cursor: Cursor, room: Vector) -> Enclosed:
+def enclosed(plan: Vector, cursor: Cursor, buffer: Vector) -> Enclosed:
     """Bounds on the piece at which the cursor is, by what `bound_window` has noted."""
-    if not room[_OFF] < math.inf:
+    if not buffer[_OFF] < math.inf:
         return ANYWHERE
     i, here, there = cursor.i, _ROW * cursor.i, _ROW * (cursor.i + 1)
-    off, off_a, off_f = _off(room, i, 0), _off(room, i, 1), _off(room, i, 2)
+    off, off_a, off_f = _off(buffer, i, 0), _off(buffer, i, 1), _off(buffer, i, 2)
     return Enclosed(
-        min(room[here], room[there]) - off,
-        max(room[here], room[there]) + off,
-        min(room[here + 1], room[there + 1]) - off_a,
-        max(room[here + 1], room[there + 1]) + off_a,
-        max(room[here + 2], room[there + 2]) + off_f,
+        min(buffer[here], buffer[there]) - off,
+        max(buffer[here], buffer[there]) + off,
+        min(buffer[here + 1], buffer[there + 1]) - off_a,
+        max(buffer[here + 1], buffer[there + 1]) + off_a,
+        max(buffer[here + 2], buffer[there + 2]) + off_f,
     )

@@ -12,7 +12,7 @@ deformation's slope is the closing speed only then; untouched it fades, at rigid
     largest_power = observed(see_power)         # the loop of `event_loop`, for all flows
 
     @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, f8[::1])", "measured")
-    def find_power(given, rig, amplitude, frequency, phase, state, cycles, notes): ...
+    def find_power(memory, rig, amplitude, frequency, phase, state, cycles, notes): ...
 
 `tests/engine/observers/test_power.py` is all that one takes: the kernel, its loop, an entry that
 starts with `opening.open_entry`, and a comparison with dense samples. numba compiles the entry when

@@ -13,8 +13,8 @@ from vibroimpact.engine.channels import (
     SINCE,
     VELOCITY,
     evaluate,
-    piece_room,
-    series_room,
+    piece_buffer,
+    series_buffer,
 )
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.quadrature import ABSCISSAE, WEIGHTS
@@ -46,7 +46,7 @@ def _add(
 ) -> None:
     """Add the integrals of a stretch; `out` has QUANTITIES rows of a number for each line."""
     count, masses = int(notes[COUNT]), flow.coordinates(plan) // 2
-    piece, of_u, of_v, of_a = piece_room(), series_room(), series_room(), series_room()
+    piece, of_u, of_v, of_a = piece_buffer(), series_buffer(), series_buffer(), series_buffer()
     row = masses * count
     more = flow.first_piece(plan, before, ended, piece)
     while more:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.event import LIMIT, PASSED, kind_of
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.state import (
     EVENT,
@@ -29,14 +29,14 @@ from vibroimpact.engine.state import (
     STEP,
     T,
     copy,
-    parts_room,
+    parts_buffer,
     put,
-    room,
-    square_room,
-    stretch_room,
+    square_buffer,
+    state_buffer,
+    stretch_buffer,
 )
 
-work_room = stack(2 * LARGEST * LARGEST)
+work_buffer = stack(2 * LARGEST * LARGEST)
 """Room for what `rows_of` keeps besides the rows."""
 
 LEAST = 1e-4
@@ -89,11 +89,11 @@ def weigh(plan: Vector, weights: Vector) -> None:
         weights[i] *= weights[i]
 
 
-@apart
+@not_inlined
 def weigh_section(plan: Vector, state: Vector, weights: Vector) -> None:
     """The same of a section: what only follows others, as a pressed bumper does, counts nothing."""
     parts = flow.parts(plan)
-    units = square_room()
+    units = square_buffer()
     weigh(plan, weights)
     flow.unit_disturbances(plan, state, units)
     for i in range(parts):
@@ -162,11 +162,11 @@ def orthonormalise(rows: Rows, least: float, nothing: float) -> int:
     return unsure
 
 
-@apart
+@not_inlined
 def begin_rows(plan: Vector, state: Vector, rows: Rows, first: int, last: int) -> None:
     """Let rows begin, from `first` to before `last`: each in a direction that the others leave."""
     q, parts = rows.q, rows.parts
-    units = square_room()
+    units = square_buffer()
     flow.unit_disturbances(plan, state, units)
     for i in range(first, last):
         size = 0.0
@@ -214,11 +214,11 @@ def grow(
         _grow_finely(plan, before, ended, after, rows)
 
 
-@apart
+@not_inlined
 def _grow_finely(plan: Vector, before: Vector, ended: Vector, after: Vector, rows: Rows) -> None:
     """As `grow`; the rows and their shares are what the whole stretch leaves."""
     size, n = rows.n * rows.parts, rows.n
-    q, shares, logarithms = square_room(), square_room(), parts_room()
+    q, shares, logarithms = square_buffer(), square_buffer(), parts_buffer()
     copy(rows.q, q, size)
     copy(rows.shares, shares, size)
     copy(rows.logarithms, logarithms, n)
@@ -262,12 +262,12 @@ def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
         begin_rows(plan, after, rows, at, rows.n)
 
 
-@apart
+@not_inlined
 def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> bool:
     """As `grow`, from the `start` of the rows on; return whether the pieces end as the stretch."""
     q, start, shares, _, logarithms, count, parts = rows
-    here, there, part = room(), room(), stretch_room()
-    notes, last = parts_room(), parts_room()
+    here, there, part = state_buffer(), state_buffer(), stretch_buffer()
+    notes, last = parts_buffer(), parts_buffer()
     put(plan, before, here)
     for i in range(count):
         last[i] = math.nan
@@ -332,11 +332,11 @@ def _is_alike(rows: Rows, last: Vector) -> bool:
     return alike
 
 
-@apart
+@not_inlined
 def _pass_event(plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Rows) -> None:
     """Carry rows through an event that comes at once."""
     q, start, shares, _, logarithms, count, parts = rows
-    notes = parts_room()
+    notes = parts_buffer()
     for again in range(_AGAIN):
         copy(start, q, count * parts)
         flow.tangent(plan, here, ended, there, notes, q)

@@ -14,7 +14,7 @@ DETACHMENT, CONTACT_BEGINS, IMPACT = 0.0, 1.0, 2.0
 
 # What is kept of a record between calls.
 COLUMNS, BEGIN, STEP, COUNT, NEXT, WRITTEN, LAST, NUMBER = range(8)
-note_room = stack(8)
+note_buffer = stack(8)
 """Room for it."""
 
 

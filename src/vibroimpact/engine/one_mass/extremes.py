@@ -69,8 +69,8 @@ def series_extremes(
     for n in range(3, ORDER):
         third += n * (n - 1) * (n - 2) * abs(series[n]) * power
         power *= 0.5
-    found: tuple[float, float, float, float] = _search((series, third), low, high, least, most)
-    return found
+    extent: tuple[float, float, float, float] = _search((series, third), low, high, least, most)
+    return extent
 
 
 class Part(NamedTuple):
@@ -91,8 +91,8 @@ def pushed(
     """
     if not rigid(plan, stop):
         expanded_force(plan, cursor, before.mode, stop, series)
-        _, found, _, _ = series_extremes(series, -0.5, part.high, 0.0, most)
-        return found
+        _, peak, _, _ = series_extremes(series, -0.5, part.high, 0.0, most)
+        return peak
     way = direction(before.mode) * facing(stop)
     rate = plan[cursor.table + RATE]
     pull_series(plan, cursor.table, part.s, part.c, series)
@@ -119,7 +119,7 @@ def by_stop(first: int) -> list[int]:
     return [first + stop for stop in range(ONE_MASS.stops)]
 
 
-notes_room = stack(NOTES)
+notes_buffer = stack(NOTES)
 """Room for them."""
 
 
@@ -139,7 +139,7 @@ def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vec
     before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most = notes[U_LEAST], notes[U_MOST]
     a_least, a_most = notes[A_LEAST], notes[A_MOST]
-    series, room = workspace(), chords()
+    series, buffer = workspace(), chords()
     sign = direction(before.mode)
     x, pressed = coordinate(plan, before), FORCE + main_stop(before.mode)
     # What was seen before, in the mode's own coordinate: a piece within it is passed over.
@@ -158,13 +158,13 @@ def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vec
         force = notes[pressed]
         if cursor.i == 0:
             seen = Enclosed(x_least, x_most, least_a, most_a, force)
-            within, seen = bound_window(plan, cursor, before, seen, room)
+            within, seen = bound_window(plan, cursor, before, seen, buffer)
             x_least, x_most, least_a, most_a, force = seen
             notes[pressed] = force
         if within:
             cursor = next_piece(plan, cursor)
             continue
-        held = enclosed(plan, cursor, room)
+        held = enclosed(plan, cursor, buffer)
         farther = not (x_least <= held.x_least and held.x_most <= x_most)
         faster = not (least_a <= held.a_least and held.a_most <= most_a)
         harder = before.mode != FLIGHT and not held.force <= force

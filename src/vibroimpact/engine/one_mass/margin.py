@@ -57,13 +57,13 @@ def margin(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vecto
             value, _ = horner(series, y)
             at = cursor.t + (cursor.i + 0.5 + y) * plan[cursor.table + H]
             if before.mode != FLIGHT:
-                found = -value
+                distance = -value
             else:
                 stop = 0 if way > 0.0 else 1
                 left = relaxed(before.faces[stop], rate_of(plan, stop), at)
-                found = gap_of(plan, stop) + left - facing(stop) * value
-            if abs(found) < abs(best):
-                best = found
+                distance = gap_of(plan, stop) + left - facing(stop) * value
+            if abs(distance) < abs(best):
+                best = distance
             way = -way
         cursor = next_piece(plan, cursor)
     depth = impact_depth(plan, stretch)

@@ -92,9 +92,9 @@ def column(stop: int, name: int) -> int:
 
 
 @kernel
-def widen_row(row: Vector, at: int, found: Range) -> None:
+def widen_row(row: Vector, at: int, span: Range) -> None:
     """Widen a range of a row, whose columns follow each other."""
-    row[at], row[at + 1] = min(row[at], found.least), max(row[at + 1], found.most)
+    row[at], row[at + 1] = min(row[at], span.least), max(row[at + 1], span.most)
 
 
 @kernel

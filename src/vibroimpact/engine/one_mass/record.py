@@ -91,7 +91,7 @@ def write(plan: Vector, state: Vector, out: Vector, columns: int, k: int) -> Non
 
 @kernel
 def sample_stop(
-    plan: Vector, before: Motion, stop: int, t: float, step: float, i: int, n: int, room: Vector
+    plan: Vector, before: Motion, stop: int, t: float, step: float, i: int, n: int, buffer: Vector
 ) -> None:
     """Write a stop's deformation and clearance at n samples; what the mass does is there."""
     mode, way = before.mode, facing(stop)
@@ -104,27 +104,27 @@ def sample_stop(
         apart = gap + plan[other + par.GAP] if stop != main_stop(mode) else 0.0
         sign = way if mode == BOTH else 1.0
         for j in range(n):
-            room[row + j] = sign * room[j] - apart
-            room[clear + j] = 0.0
+            buffer[row + j] = sign * buffer[j] - apart
+            buffer[clear + j] = 0.0
         return
     deformation = before.faces[stop]
     for j in range(n):
-        room[row + j] = 0.0
+        buffer[row + j] = 0.0
     if deformation > 0.0:
         for j in range(n):
             tau = max((i + j) * step - t, 0.0)
-            room[row + j] = relaxed(deformation, rate, tau)
+            buffer[row + j] = relaxed(deformation, rate, tau)
     if plan[at + par.KIND] == par.ABSENT:
         gap = math.nan
     for j in range(n):
-        room[clear + j] = gap + (room[row + j] - way * room[U * BLOCK + j])
+        buffer[clear + j] = gap + (buffer[row + j] - way * buffer[U * BLOCK + j])
 
 
 @inlined
-def put(out: Vector, to: int, room: Vector, start: int, n: int, sign: float) -> None:
+def put(out: Vector, to: int, buffer: Vector, start: int, n: int, sign: float) -> None:
     """Write n numbers of a block to the samples; adding zero leaves no negative one."""
     for j in range(n):
-        out[to + j] = sign * room[start + j] + 0.0
+        out[to + j] = sign * buffer[start + j] + 0.0
 
 
 @kernel
@@ -139,7 +139,7 @@ def sample(
     end = before_end(i, int(notes[COUNT]), step, t + reach)
     if i >= end:
         return
-    series, room = workspace(), samples()
+    series, buffer = workspace(), samples()
     mode = before.mode
     sign = direction(mode)
     count = int(notes[COLUMNS])
@@ -147,21 +147,21 @@ def sample(
     cursor = begin(plan, before, reach)
     while i < end:
         n = min(end - i, BLOCK)
-        cursor = sample_stretch(plan, cursor, before, t, step, i, n, series, room)
+        cursor = sample_stretch(plan, cursor, before, t, step, i, n, series, buffer)
         for j in range(n):
-            room[U * BLOCK + j] = displacement(plan, mode, room[j])
+            buffer[U * BLOCK + j] = displacement(plan, mode, buffer[j])
         for stop in range(STOPS):
-            sample_stop(plan, before, stop, t, step, i, n, room)
+            sample_stop(plan, before, stop, t, step, i, n, buffer)
         k = int(notes[BEGIN]) + i
-        put(flat, DISPLACEMENT * count + k, room, U * BLOCK, n, 1.0)
-        put(flat, VELOCITY * count + k, room, VELOCITY * BLOCK, n, sign)
-        put(flat, ACCELERATION * count + k, room, ACCELERATION * BLOCK, n, sign)
+        put(flat, DISPLACEMENT * count + k, buffer, U * BLOCK, n, 1.0)
+        put(flat, VELOCITY * count + k, buffer, VELOCITY * BLOCK, n, sign)
+        put(flat, ACCELERATION * count + k, buffer, ACCELERATION * BLOCK, n, sign)
         for row in range(DEFORMATION, TOUCHED):
-            put(flat, row * count + k, room, row * BLOCK, n, 1.0)
+            put(flat, row * count + k, buffer, row * BLOCK, n, 1.0)
         for j in range(n):
             flat[TOUCHED * count + k + j] = mode
         if remembers:
-            put(flat, MEMORY * count + k, room, MEMORY * BLOCK, n, 1.0)
+            put(flat, MEMORY * count + k, buffer, MEMORY * BLOCK, n, 1.0)
         i += n
     notes[NEXT] = i
 

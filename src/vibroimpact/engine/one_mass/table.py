@@ -155,24 +155,26 @@ def place(plan: Vector, state: Vector) -> None:
     mode = int(state[MODE])
     u, v = state[DISPLACEMENT], state[VELOCITY]
     faces = max(state[FACES], 0.0), max(state[FACES + 1], 0.0)
-    found = 0
+    new_mode = 0
     for stop in range(2):
         kind = plan[par.stop_at(stop) + par.KIND]
         if kind == par.ABSENT:
             continue
         deformation = faces[stop]
         if kind == par.RIGID:
-            u, touches = rigid.placed(plan, stop, mode, u, v)
+            u, touches = rigid.nearest_possible(plan, stop, mode, u, v)
             deformation = 0.0
         elif kind == par.KELVIN_VOIGT:
-            deformation, touches = kelvin_voigt.placed(plan, stop, mode, u, v, deformation)
+            deformation, touches = kelvin_voigt.nearest_possible(
+                plan, stop, mode, u, v, deformation
+            )
         else:
-            deformation, touches = curved.placed(plan, stop, mode, u, deformation)
+            deformation, touches = curved.nearest_possible(plan, stop, mode, u, deformation)
         if touches:
-            found |= 1 << stop
+            new_mode |= 1 << stop
         faces = changed(faces, stop, deformation)
     z = min(max(state[MEMORY], -plan[par.YIELD]), plan[par.YIELD])
-    pack(Motion(found, found, u, v, faces, z, 0.0, unpacked(state).clock), state)
+    pack(Motion(new_mode, new_mode, u, v, faces, z, 0.0, unpacked(state).clock), state)
 
 
 @kernel

@@ -23,7 +23,7 @@ class Series:
 
     def __init__(self, machine: Any) -> None:
         self.machine = machine
-        self.found: list[Any] = []
+        self.coefficients: list[Any] = []
         self._older: dict[int, Any] = {}
         self._powers: dict[int, Series] = {1: self}
         self._twice: dict[int, Any] = {}
@@ -32,10 +32,10 @@ class Series:
         self._slopes: dict[Series, Any] | None = None
 
     def __getitem__(self, n: int) -> Any:
-        while len(self.found) <= n:
-            m = len(self.found)
-            self.found.append(self.first() if m == 0 else self._completed(m))
-        return self.found[n]
+        while len(self.coefficients) <= n:
+            m = len(self.coefficients)
+            self.coefficients.append(self.first() if m == 0 else self._completed(m))
+        return self.coefficients[n]
 
     def _completed(self, n: int) -> Any:
         total = self.older(n)
@@ -153,17 +153,17 @@ def joined(one: dict[Series, Any], other: dict[Series, Any]) -> dict[Series, Any
     return both
 
 
-class State(Series):
+class StateSeries(Series):
     """A series of the state, whose coefficients are written as they are found."""
 
     depth = 0
 
     def __init__(self, machine: Any, coefficients: Any) -> None:
         super().__init__(machine)
-        self.found = list(coefficients)
+        self.coefficients = list(coefficients)
 
     def __getitem__(self, n: int) -> Any:
-        return self.found[n]
+        return self.coefficients[n]
 
     def slope(self) -> dict[Series, Any]:
         """Return the slopes."""
@@ -195,18 +195,18 @@ class Shifted(Series):
         return self.series.older(n)
 
 
-class Rate(State):
+class Rate(StateSeries):
     """The derivative of a series of the state."""
 
-    def __init__(self, series: State) -> None:
+    def __init__(self, series: StateSeries) -> None:
         super().__init__(series.machine, ())
         self.series = series
 
     def __getitem__(self, n: int) -> Any:
-        while len(self.found) <= n:
-            m = len(self.found)
-            self.found.append(self.series[m + 1] * float(m + 1))
-        return self.found[n]
+        while len(self.coefficients) <= n:
+            m = len(self.coefficients)
+            self.coefficients.append(self.series[m + 1] * float(m + 1))
+        return self.coefficients[n]
 
 
 class Sum(Series):

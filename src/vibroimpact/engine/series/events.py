@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.linear.flight import leave
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
@@ -264,26 +264,26 @@ def bisected(plan: Vector, line: Line, h: float, bend: float, whole: Span) -> fl
 def first_in_step(plan: Vector, clearance: Clearance, launched: bool, released: bool) -> float:
     """The first root of the event function, as a share of the step, or NONE."""
     offset, sign, memory, rate, _ = clearance
-    room = workspace()
+    buffer = workspace()
     pace = rate / PIECES  # per piece
     for part in range(3):
         low = 0.0 if part == 0 else -0.5
         high = 0.0 if part == 2 else 0.5
-        shifted(plan, ASKED, 2 * part, room)
+        shifted(plan, ASKED, 2 * part, buffer)
         left = memory
         if memory > 0.0 and part:
             left = relaxed(memory, rate, 0.5 * part - 0.25)
         if part == 0 and launched:
             way = ABOVE if sign < 0.0 else BELOW
-            y = leave(room, way, released, left, pace, high)
+            y = leave(buffer, way, released, left, pace, high)
         else:
-            y = first_root(room, Clearance(offset, sign, left, pace, False), low, high)
+            y = first_root(buffer, Clearance(offset, sign, left, pace, False), low, high)
         if y != NONE:
             return (part + y) / PIECES
     return NONE
 
 
-@apart
+@not_inlined
 def searched(plan: Vector, line: Line, free: Free, g0: float, still: bool, h: float) -> float:
     """The first zero on the step by the certificate of the linear flow; NEVER if there is none.
 
@@ -327,7 +327,7 @@ def first_zero(plan: Vector, line: Line, ends: Ends, g0: float) -> float:
     return zero_of(plan, line, ends.h, bend, Span(0.0, ends.h, g0, g1, d0, d1))
 
 
-@apart
+@not_inlined
 def zero_of(plan: Vector, line: Line, h: float, bend: float, span: Span) -> float:
     """When g first falls to zero on a step on which it may; NEVER if it does not."""
     _, _, g0, g1, d0, d1 = span
@@ -361,7 +361,7 @@ def met(plan: Vector, level: float, sign: float, free: Free, ends: Ends, faded: 
     )
 
 
-@apart
+@not_inlined
 def met_at(
     plan: Vector,
     line: Line,

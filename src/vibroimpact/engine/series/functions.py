@@ -159,8 +159,8 @@ def tanh(machine: Any, one: Any) -> tuple[Any, Any]:
     """Return the hyperbolic tangent of a number or a series, and its derivative."""
     if not isinstance(one, Series):
         return tanh_and_slope(machine, one)
-    found = Tanh(one)
-    return found, found.flat
+    tanh_series = Tanh(one)
+    return tanh_series, tanh_series.flat
 
 
 def exponential(machine: Any, one: Any) -> Any:

@@ -75,19 +75,19 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     """Each kernel that a rig may call, by slot."""
     laws = tuple(module.shape(rig) for module in LAWS)
     right, left = pushed(rig, 0), pushed(rig, 1)
-    found: dict[int, Shape] = {Slot.FREE: Shape(laws)}
+    shapes: dict[int, Shape] = {Slot.FREE: Shape(laws)}
     for stop, push in enumerate((right, left)):
         if push:
-            found[Slot.STOP + STRIDE * stop] = Shape(laws, push)
+            shapes[Slot.STOP + STRIDE * stop] = Shape(laws, push)
     if rig[par.stop_at(0) + par.GAP] + rig[par.stop_at(1) + par.GAP] < 0.0 and left:
-        found[Slot.OTHER] = Shape(laws, 0, left)
+        shapes[Slot.OTHER] = Shape(laws, 0, left)
         if right:
-            found[Slot.BOTH] = Shape(laws, right, left)
+            shapes[Slot.BOTH] = Shape(laws, right, left)
     formulas = step.begun, step.again, slopes.slopes
-    every: dict[int, Kernel] = {int(slot): (formulas, shape) for slot, shape in found.items()}
+    every: dict[int, Kernel] = {int(slot): (formulas, shape) for slot, shape in shapes.items()}
     if laws[LAWS.index(drag)] == (0,):
         calm = tuple(() if module is drag else law for module, law in zip(LAWS, laws, strict=True))
-        for slot, shape in found.items():
+        for slot, shape in shapes.items():
             every[slot + CALM] = formulas, shape._replace(laws=calm)
     for which in range(3):
         symbols = program.unpack(rig, which)
@@ -97,13 +97,16 @@ def kernels(rig: Any) -> dict[int, Kernel]:
                 (which, symbols),
             )
     for stop in range(2):
-        deep = rooted(rig, stop, laws)
+        deep = root_shape(rig, stop, laws)
         if deep is not None:
-            every[Slot.ROOT + STRIDE * stop] = (root_variable.rooted, root_variable.again), deep
+            every[Slot.ROOT + STRIDE * stop] = (
+                (root_variable.write_root_series, root_variable.again),
+                deep,
+            )
     return every
 
 
-def rooted(rig: Any, stop: int, laws: tuple[Any, ...]) -> Rooted | None:
+def root_shape(rig: Any, stop: int, laws: tuple[Any, ...]) -> Rooted | None:
     """The shape of the kernel in a root of a stop's deformation, if there is one."""
     kind = pushed(rig, stop)
     if kind not in (1, 2) or rig[par.DRAG] not in (1.0, 2.0):
@@ -207,12 +210,12 @@ def made_once(
     depends on the structure of a rig alone and on no value.
     """
     key = (formula, shape)
-    found = _made.get(key)
-    if found is None:
+    code = _made.get(key)
+    if code is None:
         with _lock:
-            found = _made.get(key) or machine_code(emit(formula, shape))
-            _made[key] = found
-    return found[1]
+            code = _made.get(key) or machine_code(emit(formula, shape))
+            _made[key] = code
+    return code[1]
 
 
 def _emitted(formula: Callable[..., None], shape: Any) -> ir.Module:

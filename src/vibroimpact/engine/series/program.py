@@ -16,15 +16,15 @@ from vibroimpact.law_numbers import BITS, IN_WORD, LARGEST, SYMBOLS, WORDS
 def unpack(rig: Any, which: int) -> tuple[int, ...]:
     """Read the symbols of the isolator's program (0), or of that of a stop (1 right, 2 left)."""
     at = par.OWN + par.OWN_WIDTH * which
-    found: list[int] = []
+    symbols: list[int] = []
     for word in np.asarray(rig[at : at + WORDS]) if rig[at] else ():
         rest = int(word)
         for _ in range(IN_WORD):
-            found.append(rest & LARGEST)
+            symbols.append(rest & LARGEST)
             rest >>= BITS
-    while found and found[-1] == 0:
-        found.pop()
-    return tuple(found)
+    while symbols and symbols[-1] == 0:
+        symbols.pop()
+    return tuple(symbols)
 
 
 def evaluate(law: Any, symbols: tuple[int, ...], which: int, x: Any, v: Any, signs: Any) -> Any:
@@ -131,9 +131,9 @@ class Traced:
         """Return the absolute value."""
         return self.machine.absolute(one)
 
-    def own(self, place: int) -> Any:
+    def formula_number(self, place: int) -> Any:
         """Return a number of the formula."""
-        return self.law.own(place)
+        return self.law.formula_number(place)
 
 
 FARTHEST = 4.0

@@ -11,14 +11,14 @@ from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
-from vibroimpact.engine.series.algebra import Series, State, later
+from vibroimpact.engine.series.algebra import Series, StateSeries, later
 from vibroimpact.engine.series.code_generation import LANES
 from vibroimpact.engine.series.laws import hysteresis, own
 from vibroimpact.engine.series.step import (
     LAST,
     LAWS,
     TOLERANCE,
-    Law,
+    LawNumbers,
     isolator,
     memory,
     memory_off,
@@ -55,7 +55,7 @@ class Rooted(NamedTuple):
 class Moved(Series):
     """δ′, from the series of y = m δ, which is wᵐ: coefficient n needs w up to n + 1 only."""
 
-    def __init__(self, y: Series, w: State, v: State, pace: Any, share: float) -> None:
+    def __init__(self, y: Series, w: StateSeries, v: StateSeries, pace: Any, share: float) -> None:
         super().__init__(w.machine)
         self.y, self.w, self.v, self.pace, self.share = y, w, v, pace, share
 
@@ -72,7 +72,9 @@ class Moved(Series):
         return self.y.older(n + 1) * (float(n + 1) * self.share)
 
 
-def pull(law: Law, shape: Rooted, w: Any, v: Any, z: Any, y: Any, moved: Any, pace: Any) -> Any:
+def pull(
+    law: LawNumbers, shape: Rooted, w: Any, v: Any, z: Any, y: Any, moved: Any, pace: Any
+) -> Any:
     """What all forces but the shaking and the dashpot pull back with, times dt/dτ.
 
     `y` is m δ, and `moved` is dδ/dτ.
@@ -126,7 +128,7 @@ def faster(
 class Turning:
     """What one sine shakes with, times dt/dτ: its even terms and its odd ones, side by side."""
 
-    def __init__(self, machine: Any, even: Any, odd: Any, pace: Series, law: Law) -> None:
+    def __init__(self, machine: Any, even: Any, odd: Any, pace: Series, law: LawNumbers) -> None:
         self.machine, self.pace = machine, pace
         self.both = [machine.lanes([even, odd])]
         self.rates = machine.lanes([law.rate, law.closing])
@@ -140,11 +142,11 @@ class Turning:
         return total.lane(0)
 
 
-def rooted(machine: Any, shape: Rooted) -> None:
+def write_root_series(machine: Any, shape: Rooted) -> None:
     """Write the series of a step from (w, δ̇, z), and the values at its end."""
     first, speed, kept, size, longest, now, after = machine.arguments
-    law, degree = Law(machine), at.DEGREE
-    w, v, z, t = (State(machine, [one]) for one in (first, speed, kept, 0.0))
+    law, degree = LawNumbers(machine), at.DEGREE
+    w, v, z, t = (StateSeries(machine, [one]) for one in (first, speed, kept, 0.0))
     y, pace = w**shape.root, w ** (shape.root - 1)
     moved = Moved(y, w, v, pace, 1.0 / shape.root)
     turning, shaken = None, None
@@ -163,7 +165,7 @@ def rooted(machine: Any, shape: Rooted) -> None:
     flow = memory(law, shape, None, moved, z)
     h, last = None, degree - EARLY
     for n in range(degree):
-        w.found.append(v[n] * (1.0 / (n + 1)))
+        w.coefficients.append(v[n] * (1.0 / (n + 1)))
         if n + 1 == last:
             h = machine.least(reach(machine, w, None, size, last), longest)
         new = [(t, grown(pace, n))]
@@ -172,7 +174,7 @@ def rooted(machine: Any, shape: Rooted) -> None:
         if n + 1 < degree:
             new.append((v, faster(machine, gain, turning, damping, (w, v, y), n)))
         for one, coefficient in new:
-            one.found.append(coefficient)
+            one.coefficients.append(coefficient)
     written = [(at.X, w), (at.T, t), *([(at.Z, z)] if flow is not None else [])]
     for place, one in written:
         for n in range(degree + 1):
@@ -195,21 +197,21 @@ def again(machine: Any, shape: Rooted) -> None:
     """Find the end of the series in hand at another value of τ."""
     size, h = machine.arguments[3:5]
 
-    def loaded(place: int) -> State:
-        return State(machine, [machine.load(place + n) for n in range(at.DEGREE + 1)])
+    def loaded(place: int) -> StateSeries:
+        return StateSeries(machine, [machine.load(place + n) for n in range(at.DEGREE + 1)])
 
     z = loaded(at.Z) if shape.laws[LAWS.index(hysteresis)] else None
-    ended(machine, shape, Law(machine), loaded(at.X), loaded(at.T), z, h, size)
+    ended(machine, shape, LawNumbers(machine), loaded(at.X), loaded(at.T), z, h, size)
 
 
 def ended(
-    machine: Any, shape: Rooted, law: Law, w: Series, t: Series, z: Any, h: Any, size: Any
+    machine: Any, shape: Rooted, law: LawNumbers, w: Series, t: Series, z: Any, h: Any, size: Any
 ) -> None:
     """Write the values at the end of a step."""
     degree = at.DEGREE
     step = along_of(machine, h)
-    found, times = sums(machine, w, step.reached), total(machine, t, step.reached)
-    end, v = end_of(machine, found, w[0], step)
+    totals, times = sums(machine, w, step.reached), total(machine, t, step.reached)
+    end, v = end_of(machine, totals, w[0], step)
     machine.store(at.FOUND + at.F_T, times[0])
     highest = h
     for _ in range(4):
@@ -236,12 +238,12 @@ def ended(
     weight = pace * (h * h)
     moved = v * pace
     pulled = pull(law, shape, end, v, kept, end**shape.root, moved, pace)
-    owes = machine.fma(machine.fma(law.damping, moved, pulled), h * h, found.gain)
+    owes = machine.fma(machine.fma(law.damping, moved, pulled), h * h, totals.gain)
     machine.store(at.FOUND + at.F_OWES, owes)
     machine.store(at.FOUND + at.F_WEIGHT, weight)
 
 
-def bends_of(machine: Any, shape: Rooted, law: Law, w: Series, step: Along) -> Any:
+def bends_of(machine: Any, shape: Rooted, law: LawNumbers, w: Series, step: Along) -> Any:
     """By how much a formula of the isolator may bend on a step; None if there is none to bend."""
     own_law = shape.laws[LAWS.index(own)]
     if not own_law:

@@ -11,10 +11,10 @@ from typing import Any
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
-from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
+from vibroimpact.engine.series.algebra import Rate, Series, Shifted, StateSeries
 from vibroimpact.engine.series.functions import tanh
 from vibroimpact.engine.series.laws import drag, hysteresis
-from vibroimpact.engine.series.step import LAWS, Law, Shape, isolator, memory, pushes
+from vibroimpact.engine.series.step import LAWS, LawNumbers, Shape, isolator, memory, pushes
 
 _TIMES = {
     "stiffness": 2, "damping": 1, "cubic": 2, "quintic": 2, "sinh": 2, "hysteretic": 2,
@@ -55,12 +55,12 @@ class Varied:
         return self.scaled(-self.value, -1.0)
 
     def __sub__(self, other: Any) -> Varied:
-        found: Varied = self + -other
-        return found
+        difference: Varied = self + -other
+        return difference
 
     def __rsub__(self, other: Any) -> Varied:
-        found: Varied = -self + other
-        return found
+        difference: Varied = -self + other
+        return difference
 
     def __mul__(self, other: Any) -> Varied:
         if not isinstance(other, Varied):
@@ -75,8 +75,8 @@ class Varied:
     __radd__, __rmul__ = __add__, __mul__
 
 
-class Varying(Law):
-    """As `Law`, for formulas that are run with `Varied`."""
+class Varying(LawNumbers):
+    """As `LawNumbers`, for formulas that are run with `Varied`."""
 
     def exp(self, one: Any) -> Any:
         """Return e to the power of a number or a series."""
@@ -136,30 +136,32 @@ def slopes(machine: Any, shape: Shape) -> None:
     """
     degree = at.DEGREE
     law = Steps(machine, machine.arguments[4], shape.laws[LAWS.index(drag)] == (2,))
-    along = State(machine, [machine.load(at.X + n) for n in range(degree + 1)])
+    along = StateSeries(machine, [machine.load(at.X + n) for n in range(degree + 1)])
     rate = Rate(along)
     x, v, z = Varied(along, {"x": 1.0}), Varied(rate, {"v": 1.0}), Varied(0.0, {})
     if shape.laws[LAWS.index(hysteresis)]:
-        z = Varied(State(machine, [machine.load(at.Z + n) for n in range(degree)]), {"z": 1.0})
+        z = Varied(
+            StateSeries(machine, [machine.load(at.Z + n) for n in range(degree)]), {"z": 1.0}
+        )
     u = Varied(Shifted(along, along[0] + law.offset), x.by)
     stops = pushes(law, shape, x, v)
     total = Varied(0.0, {"x": law.stiffness, "v": law.damping})
     for force in [*isolator(law, shape, u, v, z), *stops]:
         total = total + Varied(0.0, force.by)
-    found = {at.BY_X: total.by["x"], at.BY_V: total.by["v"]}
+    outputs = {at.BY_X: total.by["x"], at.BY_V: total.by["v"]}
     names = ("push", "other") if shape.push else ("other",)
     for name, push in zip(names, stops, strict=False):
         i = at.ROOM * ("push", "other").index(name)
-        found[at.PUSH + i] = push.value if name == "push" else -push.value
+        outputs[at.PUSH + i] = push.value if name == "push" else -push.value
         chi = f"{name}_dissipation"
         if chi in push.by:
-            found[at.BY_CHI + i] = times(push.by[chi], getattr(law, chi).value)
+            outputs[at.BY_CHI + i] = times(push.by[chi], getattr(law, chi).value)
     flow = memory(law, shape, u, v, z)
     if flow is not None:
-        found[at.BY_Z], found[at.BY_Z_OF_Z] = flow.by["v"], -flow.by.get("z", 0.0)
+        outputs[at.BY_Z], outputs[at.BY_Z_OF_Z] = flow.by["v"], -flow.by.get("z", 0.0)
     for place in (at.BY_X, at.BY_V, at.BY_CHI, at.BY_CHI + at.ROOM, at.BY_Z, at.BY_Z_OF_Z):
-        found.setdefault(place, 0.0)
-    for place, one in found.items():
+        outputs.setdefault(place, 0.0)
+    for place, one in outputs.items():
         for n in range(degree + 1):
             if n == degree:
                 machine.store(place + n, 0.0)
@@ -191,8 +193,8 @@ def event_series(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
     """
     which, symbols = shape
     level, facing, _, _, h, way, _ = machine.arguments
-    law = Law(machine)
-    along = State(machine, [machine.load(at.X + n) for n in range(at.DEGREE + 1)])
+    law = LawNumbers(machine)
+    along = StateSeries(machine, [machine.load(at.X + n) for n in range(at.DEGREE + 1)])
     rate = Rate(along) * (law.per_unit * facing)
     force = program.evaluate(law, symbols, which, along * facing + level, rate, (1.0, way))
     power = 1.0

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
-from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
+from vibroimpact.engine.series.algebra import Rate, Series, Shifted, StateSeries
 from vibroimpact.engine.series.code_generation import LANES
 from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
 from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
@@ -60,7 +60,7 @@ class Shape(NamedTuple):
     other: Any = 0
 
 
-class Law:
+class LawNumbers:
     """The numbers of a mode's forces by name, and functions for formulas."""
 
     def __init__(self, machine: Any) -> None:
@@ -100,31 +100,31 @@ class Law:
         """Return the absolute value of a number or a series of a sign."""
         return sign * one
 
-    def own(self, place: int) -> Any:
+    def formula_number(self, place: int) -> Any:
         """Return a number of a user's formula, by its place in the rig's vector."""
         return self._machine.load(place)
 
 
-def isolator(law: Law, shape: Any, u: Any, v: Any, z: Any) -> list[Any]:
+def isolator(law: LawNumbers, shape: Any, u: Any, v: Any, z: Any) -> list[Any]:
     """What the laws of an isolator pull back with, each."""
-    found = zip(LAWS, shape.laws, strict=True)
-    return [module.force(law, part, u, v, z) for module, part in found if part]
+    pairs = zip(LAWS, shape.laws, strict=True)
+    return [module.force(law, part, u, v, z) for module, part in pairs if part]
 
 
-def memory(law: Law, shape: Any, u: Any, v: Any, z: Any) -> Any:
+def memory(law: LawNumbers, shape: Any, u: Any, v: Any, z: Any) -> Any:
     """z′, or None where an isolator has no memory."""
     part = shape.laws[LAWS.index(hysteresis)]
     return hysteresis.flow(law, part, u, v, z) if part else None
 
 
-def pushes(law: Law, shape: Shape, x: Any, v: Any) -> list[Any]:
+def pushes(law: LawNumbers, shape: Shape, x: Any, v: Any) -> list[Any]:
     """What stops push with that follow a power of their deformation."""
-    found = []
+    forces = []
     if shape.push:
-        found.append(contact.force(law, "push", shape.push, x, v))
+        forces.append(contact.force(law, "push", shape.push, x, v))
     if shape.other:
-        found.append(-contact.force(law, "other", shape.other, law.apart - x, -v))
-    return found
+        forces.append(-contact.force(law, "other", shape.other, law.apart - x, -v))
+    return forces
 
 
 def begun(machine: Any, shape: Shape) -> None:
@@ -134,10 +134,10 @@ def begun(machine: Any, shape: Shape) -> None:
     is now: that of its table's even terms, and that of the odd ones.
     """
     x, v, z, size, longest, now, after = machine.arguments
-    law = Law(machine)
+    law = LawNumbers(machine)
     degree = at.DEGREE
     last = degree - EARLY
-    along, memo = State(machine, [x, v]), State(machine, [z])
+    along, memo = StateSeries(machine, [x, v]), StateSeries(machine, [z])
     rate = Rate(along)
     u = Shifted(along, x + law.offset)
     forces = isolator(law, shape, u, rate, memo) + pushes(law, shape, along, rate)
@@ -183,14 +183,14 @@ def begun(machine: Any, shape: Shape) -> None:
                         made = machine.fma(slope * by, newest[n], made)
                 if rate in flow.slopes:
                     made = machine.fma(flow.slopes[rate], along[n + 1], made)
-            memo.found.append(made)
+            memo.coefficients.append(made)
             machine.store(at.Z + n + 1, made)
-        along.found.append(new)
+        along.coefficients.append(new)
         machine.store(at.X + n + 2, new)
         if n + 2 == last:
             h = reach(machine, along, memo if flow is not None else None, size, last)
             h = machine.least(h, longest)
-    memo.found.append(0.0)
+    memo.coefficients.append(0.0)
     ended(machine, shape, law, along, memo if flow is not None else None, h, size)
 
 
@@ -218,12 +218,12 @@ def reach(machine: Any, along: Series, memo: Any, size: Any, last: int) -> Any:
 def again(machine: Any, shape: Shape) -> None:
     """Find the end of the series in hand at another time."""
     size, h = machine.arguments[3:5]
-    along = State(machine, [machine.load(at.X + n) for n in range(at.DEGREE + 1)])
+    along = StateSeries(machine, [machine.load(at.X + n) for n in range(at.DEGREE + 1)])
     memo = None
     if shape.laws[LAWS.index(hysteresis)]:
-        memo = State(machine, [machine.load(at.Z + n) for n in range(at.DEGREE)])
-        memo.found.append(0.0)
-    ended(machine, shape, Law(machine), along, memo, h, size)
+        memo = StateSeries(machine, [machine.load(at.Z + n) for n in range(at.DEGREE)])
+        memo.coefficients.append(0.0)
+    ended(machine, shape, LawNumbers(machine), along, memo, h, size)
 
 
 def memory_off(
@@ -237,13 +237,13 @@ def memory_off(
 
 
 def ended(
-    machine: Any, shape: Shape, law: Law, along: Series, memo: Any, h: Any, size: Any
+    machine: Any, shape: Shape, law: LawNumbers, along: Series, memo: Any, h: Any, size: Any
 ) -> None:
     """Write the values at the end of a step."""
     degree = at.DEGREE
     step = along_of(machine, h)
-    found = sums(machine, along, step.reached)
-    x, v = end_of(machine, found, along[0], step)
+    totals = sums(machine, along, step.reached)
+    x, v = end_of(machine, totals, along[0], step)
     highest = h
     for _ in range(4):  # h¹⁶
         highest = highest * highest
@@ -277,7 +277,7 @@ def ended(
     if bent is not None:
         excess = machine.most(overbent(bent), excess)
     machine.store(at.FOUND + at.F_EXCESS, excess)
-    machine.store(at.FOUND + at.F_OWES, machine.fma(pull, h * h, found.gain))
+    machine.store(at.FOUND + at.F_OWES, machine.fma(pull, h * h, totals.gain))
     machine.store(at.FOUND + at.F_WEIGHT, h * h)
 
 
@@ -302,16 +302,16 @@ def points_of(machine: Any, along: Series, step: Along) -> list[tuple[Any, Any]]
     return [(x, v), (x + move, v), (x - move, v), (x, v + speed), (x, v - speed)]
 
 
-def bends_of(machine: Any, shape: Shape, law: Law, along: Series, step: Along) -> Any:
+def bends_of(machine: Any, shape: Shape, law: LawNumbers, along: Series, step: Along) -> Any:
     """By how much users' formulas may bend on a step, over what a series shows; None if nowhere."""
     own_law = shape.laws[LAWS.index(own)]
     if not own_law and not any(isinstance(one, tuple) for one in (shape.push, shape.other)):
         return None
     points = points_of(machine, along, step)
-    found = []
+    bends = []
     if own_law:
         at_points = [(one + law.offset, rate * law.per_unit) for one, rate in points]
-        found.append(program.bends(machine, law, own_law, 0, at_points))
+        bends.append(program.bends(machine, law, own_law, 0, at_points))
     for kind, facing in ((shape.push, 1.0), (shape.other, -1.0)):
         if not isinstance(kind, tuple):
             continue
@@ -322,12 +322,12 @@ def bends_of(machine: Any, shape: Shape, law: Law, along: Series, step: Along) -
             )
             for one, rate in points
         ]
-        found.append(program.bends(machine, law, kind[1], kind[0], at_points))
-    some = [one for one in found if one is not None]
+        bends.append(program.bends(machine, law, kind[1], kind[0], at_points))
+    some = [one for one in bends if one is not None]
     return functools.reduce(machine.most, some) if some else None
 
 
-def past(machine: Any, shape: Shape, law: Law, v: Any) -> Any:
+def past(machine: Any, shape: Shape, law: LawNumbers, v: Any) -> Any:
     """The velocity at the end, none behind a turn: powers that are not whole end there."""
     if shape.laws[LAWS.index(drag)] == (0,):
         return law.way * machine.most(law.way * v, 0.0)

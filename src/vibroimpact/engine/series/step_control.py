@@ -8,7 +8,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import count, plane, stepped, value, wave
 from vibroimpact.engine.forcing.several import raised
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.linear.layout import RATE, SCALED_A, SCALED_W, WAVE_C, WAVE_S, H
 from vibroimpact.engine.series.kernels import AGAIN, CALM, STRIDE, Slot, drags_any_power, lacks, run
 from vibroimpact.engine.series.layout import (
@@ -72,7 +72,7 @@ def prepare(plan: Vector, rate: float) -> None:
     plan[LACKING] = 1.0 if lacks(plan) else 0.0
 
 
-@apart
+@not_inlined
 def tabulate(plan: Vector, unit: float) -> None:
     """Write what one sine or line is in a unit of time: even terms and odd ones."""
     plan[SHAKES_UNIT] = unit
@@ -99,7 +99,7 @@ def shaken(plan: Vector, sign: float, clock: Clock, unit: float) -> tuple[float,
     return 1.0, 1.0
 
 
-@apart
+@not_inlined
 def shake(plan: Vector, sign: float, clock: Clock, unit: float, into: int) -> None:
     """Write the series of −sign A_t, in units of time."""
     s, c = clock
@@ -119,7 +119,7 @@ def shake(plan: Vector, sign: float, clock: Clock, unit: float, into: int) -> No
         sn, cn = raised(s, c, sn, cn)
 
 
-@apart
+@not_inlined
 def number_isolator(plan: Vector, unit: float) -> None:
     """Write the numbers of an isolator's forces that are the same in all modes."""
     squared = unit * unit
@@ -136,7 +136,7 @@ def number_isolator(plan: Vector, unit: float) -> None:
 def number(plan: Vector, frame: Frame, laws: Laws, unit: float) -> None:
     """Write the numbers of a mode's forces, in units of time."""
     squared = unit * unit
-    branch, push, other, apart, drag = laws
+    branch, push, other, distance_between, drag = laws
     if plan[NUMBERS_UNIT] != unit:
         number_isolator(plan, unit)
     plan[_K], plan[_C] = frame.stiffness * squared, frame.damping * unit
@@ -152,7 +152,7 @@ def number(plan: Vector, frame: Frame, laws: Laws, unit: float) -> None:
         # high power of a unit may leave the range of numbers.
         plan[_DRAG] = drag * branch.way * (squared if drags_any_power(plan) else 1.0)
     if push.stiffness != 0.0 or other.stiffness != 0.0:
-        plan[_APART] = apart
+        plan[_APART] = distance_between
         for at, one in ((_PUSH, push), (_OTHER_K, other)):
             plan[at], plan[at + 1] = one.stiffness * squared, one.exponent
             plan[at + 2], plan[at + 3] = one.dissipation / unit, one.viscous * unit
@@ -210,7 +210,7 @@ def lasts(plan: Vector, slot: int, h: float) -> float:
     return plan[FOUND + F_T] if slot >= _ROOT else h
 
 
-@apart
+@not_inlined
 def shortened(
     plan: Vector, slot: int, excess: float, by: Shaken, h: float, size: float, fine: float
 ) -> tuple[float, Clock]:

@@ -47,12 +47,12 @@ def powers(machine: Any, h: Any, degree: int) -> list[Any]:
     """H to h^degree, four side by side."""
     square = h * h
     fourth = square * square
-    found = [machine.lanes([h, square, square * h, fourth])]
+    vectors = [machine.lanes([h, square, square * h, fourth])]
     step = fourth
     for _ in range(1, degree // LANES):
-        found.append(found[0] * step)
+        vectors.append(vectors[0] * step)
         step = step * fourth
-    return found
+    return vectors
 
 
 class Along(NamedTuple):
@@ -70,25 +70,25 @@ def along_of(machine: Any, h: Any) -> Along:
     return Along(h, inverse, inverse * inverse, powers(machine, h, at.DEGREE))
 
 
-def end_of(machine: Any, found: Sums, first: Any, step: Along) -> tuple[Any, Any]:
+def end_of(machine: Any, totals: Sums, first: Any, step: Along) -> tuple[Any, Any]:
     """Write where the coordinate of a step ends, with its derivatives; return it and its rate."""
-    end, rate = found.value + first, found.rate * step.inverse
+    end, rate = totals.value + first, totals.rate * step.inverse
     for place, number in (
         (at.F_H, step.h),
         (at.F_X, end),
         (at.F_V, rate),
-        (at.F_A, found.gain * step.squared),
-        (at.F_BEND, found.bend * step.squared),
-        (at.F_JERK, found.jerk * (step.squared * step.inverse)),
+        (at.F_A, totals.gain * step.squared),
+        (at.F_BEND, totals.bend * step.squared),
+        (at.F_JERK, totals.jerk * (step.squared * step.inverse)),
     ):
         machine.store(at.FOUND + place, number)
     return end, rate
 
 
-def memory_end(machine: Any, found: Sums, first: Any, step: Along) -> Any:
+def memory_end(machine: Any, totals: Sums, first: Any, step: Along) -> Any:
     """Write where the memory of a step ends, with its rate; return it."""
-    end = found.value + first
+    end = totals.value + first
     machine.store(at.FOUND + at.F_Z, end)
-    machine.store(at.FOUND + at.F_R, found.rate * step.inverse)
-    machine.store(at.FOUND + at.F_BEND_Z, found.bend * step.squared)
+    machine.store(at.FOUND + at.F_R, totals.rate * step.inverse)
+    machine.store(at.FOUND + at.F_BEND_Z, totals.bend * step.squared)
     return end

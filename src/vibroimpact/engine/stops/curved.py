@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import Motion, facing
 from vibroimpact.engine.series.kernels import STRIDE, Slot, run
@@ -49,7 +49,9 @@ def depth_of(plan: Vector, motion: Motion, stop: int) -> float:
 
 
 @kernel
-def placed(plan: Vector, stop: int, mode: int, u: float, memory: float) -> tuple[float, bool]:
+def nearest_possible(
+    plan: Vector, stop: int, mode: int, u: float, memory: float
+) -> tuple[float, bool]:
     """How fast it was met, of a mass that presses it, and whether one does."""
     reach = facing(stop) * u - plan[par.stop_at(stop) + par.GAP]
     if reach > 0.0 or (reach == 0.0 and mode >> stop & 1):
@@ -93,7 +95,7 @@ def stop_force(plan: Vector, stop: int, push: Push, deformation: float, closing:
     return max(own_push(plan, stop, deformation, closing)[0], 0.0)
 
 
-@apart
+@not_inlined
 def own_push(
     plan: Vector, stop: int, deformation: float, closing: float
 ) -> tuple[float, float, float]:

@@ -50,7 +50,7 @@ def power(plan: Vector, stop: int, speed: float) -> float:
 
 
 @kernel
-def placed(
+def nearest_possible(
     plan: Vector, stop: int, mode: int, u: float, v: float, deformation: float
 ) -> tuple[float, bool]:
     """The deformation of a bumper beside a mass, and whether it is pressed."""

@@ -65,8 +65,8 @@ def restitutions(stop: StopNumbers, speeds: NDArray[np.float64]) -> NDArray[np.f
     """Return e of a wall at closing speeds (m/s)."""
     which, *numbers = written(stop)
     law, flat = list(LAWS.values())[int(which)], np.ravel(speeds)
-    found = [law(np.array(numbers), 0, float(speed)).restitution for speed in flat]
-    return np.reshape(np.array(found, dtype=float), np.shape(speeds))
+    values = [law(np.array(numbers), 0, float(speed)).restitution for speed in flat]
+    return np.reshape(np.array(values, dtype=float), np.shape(speeds))
 
 
 def choice(laws: dict[str, Callable[[Any, int, float], Rebound]]) -> Any:

@@ -47,8 +47,8 @@ def rigid(plan: Vector, stop: int) -> bool:
 @kernel
 def rebound_at(plan: Vector, stop: int, v: float) -> Rebound:
     """What a rigid stop makes of a velocity."""
-    found: Rebound = rebound(plan, par.stop_at(stop) + par.REBOUND, abs(v))
-    return found
+    law: Rebound = rebound(plan, par.stop_at(stop) + par.REBOUND, abs(v))
+    return law
 
 
 @kernel
@@ -58,7 +58,7 @@ def resting(plan: Vector, mode: int) -> bool:
 
 
 @kernel
-def placed(plan: Vector, stop: int, mode: int, u: float, v: float) -> tuple[float, bool]:
+def nearest_possible(plan: Vector, stop: int, mode: int, u: float, v: float) -> tuple[float, bool]:
     """The displacement of a mass that no rigid stop lets through, and whether it rests there."""
     sign = facing(stop)
     reach = sign * u - gap_of(plan, stop)

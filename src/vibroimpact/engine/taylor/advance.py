@@ -24,7 +24,7 @@ from vibroimpact.engine.event import (
     stop_of,
 )
 from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.motion import RELEASED, SLIPS, Ended, Motion, changed, facing
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
@@ -44,7 +44,7 @@ from vibroimpact.engine.taylor.mode_forces import (
     stuck,
     without_friction,
 )
-from vibroimpact.engine.taylor.pieces import coordinate, placed
+from vibroimpact.engine.taylor.pieces import at_coordinate, coordinate
 from vibroimpact.engine.taylor.root_steps import MOST, pressed_for, root_of
 from vibroimpact.engine.taylor.step_events import (
     ends_of,
@@ -53,7 +53,7 @@ from vibroimpact.engine.taylor.step_events import (
 from vibroimpact.engine.taylor.step_setup import NOT_YET, ahead_of, branched, stepped_on, varies
 
 
-@apart
+@not_inlined
 def with_relaxed_stops(plan: Vector, motion: Motion, t: float) -> Motion:
     """The same motion with the stops that it does not touch relaxed for t seconds."""
     mode, fresh, u, v, faces, z, age, clock = motion
@@ -144,7 +144,7 @@ def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     return rest(plan, motion, limit)
 
 
-@apart
+@not_inlined
 def advance_without_steps(plan: Vector, motion: Motion, limit: float) -> Ended:
     """A motion that is not followed by steps: it settles, stands still, or is given up."""
     if motion.fresh & SETTLING:
@@ -189,13 +189,13 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             break
         ends = ends_of(plan, h, x, v, z, hysteretic)
         ways = ahead.way if matters else 0.0
-        found = search(plan, here, frame, ways, ends, ahead.unit, t * ahead.per_unit)
+        first = search(plan, here, frame, ways, ends, ahead.unit, t * ahead.per_unit)
         step = h * ahead.unit
-        event = found.event
+        event = first.event
         if event != LIMIT:
-            x, v, z1 = state_near(plan, found.t, h, hysteretic)
+            x, v, z1 = state_near(plan, first.t, h, hysteretic)
             z = z1 if hysteretic else z
-            step = found.t * ahead.unit
+            step = first.t * ahead.unit
             after = stepped(plan, clock[0], clock[1], step)
         else:
             x, v = ends.x1, ends.v1
@@ -208,12 +208,12 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             break
         event = GIVEN_UP
         if anew:
-            here, there = placed(plan, here, x), True
+            here, there = at_coordinate(plan, here, x), True
     # One way out for all: each call that returns a motion needs memory, which is cleared first.
     return stretch_end(plan, event, here, x, there, t, limit)
 
 
-@apart
+@not_inlined
 def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
     """Give the motion up; where the terms of its series left the range of numbers, so did it."""
     mode, fresh, u, v, faces, z, age, clock = here
@@ -222,12 +222,12 @@ def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
     return GIVEN_UP, t, v, Motion(mode, fresh, u, v, faces, z, age, clock)
 
 
-@apart
+@not_inlined
 def stretch_end(
     plan: Vector, event: int, here: Motion, x: float, there: bool, t: float, limit: float
 ) -> Ended:
     """What a stretch ends with; the mass is where the coordinate x says, if not there already."""
-    here = with_relaxed_stops(plan, here if there else placed(plan, here, x), t)
+    here = with_relaxed_stops(plan, here if there else at_coordinate(plan, here, x), t)
     if event == LACKS:
         return abandoned(plan, here, t)
     if event == GIVEN_UP:

@@ -106,10 +106,10 @@ def _moved(plan: Vector, q: Vector, at: int, h: float, speeds: tuple[float, floa
 
 @kernel
 def _is_disturbed(q: Vector, at: int) -> bool:
-    found = False
+    is_nonzero = False
     for i in range(at, at + DISTURBANCE):
-        found = found or q[i] != 0.0
-    return found
+        is_nonzero = is_nonzero or q[i] != 0.0
+    return is_nonzero
 
 
 @kernel
@@ -258,7 +258,7 @@ def _stops_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> fl
 
     Its impulse is ∫ F dx/x′: of where the mass is, the slope is F/x′.
     """
-    found = 0.0
+    effect = 0.0
     for stop in range(2):
         if not (here.mode >> stop & 1 and curved_stop(plan, stop)):
             continue
@@ -267,8 +267,8 @@ def _stops_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> fl
             continue
         sign = facing(stop)
         if here.v * there.v >= 0.0:
-            found += _per_speed(plan, there, stop, sign) - _per_speed(plan, here, stop, sign)
-    return found
+            effect += _per_speed(plan, there, stop, sign) - _per_speed(plan, here, stop, sign)
+    return effect
 
 
 @kernel

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, Motion, facing, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
@@ -79,13 +79,13 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, f
     """
     v, a = abs(motion.v), abs(acceleration_of(plan, motion))
     unit = 1.0 / motion_rate(plan)
-    found: tuple[float, float, float] = slowness(
+    limits: tuple[float, float, float] = slowness(
         v, a, plan[MOST], unit, plan[par.DAMPING], exponent, 0.0
     )
-    return found
+    return limits
 
 
-@apart
+@not_inlined
 def laws_of(
     plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
 ) -> tuple[Laws, float, float]:
@@ -98,7 +98,7 @@ def laws_of(
     branch = branch_of(plan, motion, frame.sign)
     if v == 0.0:
         v = math.copysign(0.0, branch.way)  # by which |v| has its slope
-    push, other, apart = NO_PUSH, NO_PUSH, 0.0
+    push, other, distance_between = NO_PUSH, NO_PUSH, 0.0
     if mode:
         grain = 16.0 * ROUNDING * (abs(x) + abs(frame.offset))
         stop = main_stop(mode)
@@ -112,15 +112,15 @@ def laws_of(
                 push = pressing(push, v, gains)
                 push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
         if mode == BOTH and curved_stop(plan, 1):
-            apart = -total_gap(plan)
+            distance_between = -total_gap(plan)
             other = push_of(plan, 1, -(branch.way if v == 0.0 else v), motion.faces[1])
             gains = -frame.sign * acceleration_of(plan, motion)
             if plan[par.stop_at(1) + par.KIND] == par.FORMULA:
-                other = own_pressing(plan, 1, apart - x, -v, gains, grain)
+                other = own_pressing(plan, 1, distance_between - x, -v, gains, grain)
             else:
                 other = pressing(other, -v, gains)
                 other, longest = shallow(
-                    other, apart - x, -v, gains, plan[STEEPEST], grain, longest
+                    other, distance_between - x, -v, gains, plan[STEEPEST], grain, longest
                 )
     drag, turning = 0.0, math.inf
     exponent = plan[par.DRAG]
@@ -131,7 +131,7 @@ def laws_of(
             longest = min(longest, most)
             if abs(motion.v) <= little:
                 drag = 0.0
-    return Laws(branch, push, other, apart, drag), longest, min(turning, longest)
+    return Laws(branch, push, other, distance_between, drag), longest, min(turning, longest)
 
 
 @kernel

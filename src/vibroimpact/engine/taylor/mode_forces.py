@@ -11,7 +11,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import (
     BOTH,
@@ -81,7 +81,7 @@ def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
     return total
 
 
-@apart
+@not_inlined
 def own_force(plan: Vector, u: float, v: float) -> tuple[float, float, float]:
     """What an isolator's own formula pulls back with, and its slopes by u and u̇, per unit mass."""
     way, side = math.copysign(1.0, v), math.copysign(1.0, u)
@@ -216,7 +216,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
     return a - plan[par.FRICTION] * way_of(plan, motion)  # type: ignore[no-any-return]
 
 
-@apart
+@not_inlined
 def way_of(plan: Vector, motion: Motion) -> float:
     """The sign of u̇, now or at once: where it is zero, that of ü, and then that of −A_t′."""
     if motion.v != 0.0:
@@ -268,7 +268,7 @@ def stop_rounding(plan: Vector, motion: Motion, stop: int) -> float:
     return slope * size
 
 
-@apart
+@not_inlined
 def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
     """The branch of the law, in the frame with this sign."""
     way = way_of(plan, motion)

@@ -115,7 +115,7 @@ def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
 
 
 @kernel
-def placed(plan: Vector, motion: Motion, x: float) -> Motion:
+def at_coordinate(plan: Vector, motion: Motion, x: float) -> Motion:
     """The same motion with the mass where the mode's own coordinate says."""
     mode, fresh, _, v, faces, z, age, clock = motion
     u = displacement(plan, mode, x)
@@ -138,7 +138,7 @@ def motion_at(plan: Vector, start: Motion, frame: Frame, y: float) -> Motion:
     t = y * PIECES * plan[HEADER + H]
     faces = relaxed_faces(plan, mode, faces, t)
     clock = clock_at(plan, clock, y * PIECES)
-    return placed(plan, Motion(mode, 0, 0.0, v, faces, z, age + t, clock), x)
+    return at_coordinate(plan, Motion(mode, 0, 0.0, v, faces, z, age + t, clock), x)
 
 
 @kernel
@@ -179,30 +179,30 @@ def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def keep_cursor(plan: Vector, cursor: Cursor, room: Vector) -> None:
+def write_cursor(plan: Vector, cursor: Cursor, buffer: Vector) -> None:
     """Write a cursor into memory; the step's series stay in the plan."""
     table, i, length, t, step, start = cursor
-    room[0], room[1], room[2], room[3], room[4] = table, i, length, t, step
-    pack(start, beyond(room, 5))
+    buffer[0], buffer[1], buffer[2], buffer[3], buffer[4] = table, i, length, t, step
+    pack(start, beyond(buffer, 5))
 
 
 @kernel
-def kept_cursor(plan: Vector, room: Vector) -> Cursor:
+def read_cursor(plan: Vector, buffer: Vector) -> Cursor:
     """The cursor that was written."""
-    start = unpacked(beyond(room, 5))
-    return Cursor(int(room[0]), int(room[1]), room[2], room[3], room[4], start)
+    start = unpacked(beyond(buffer, 5))
+    return Cursor(int(buffer[0]), int(buffer[1]), buffer[2], buffer[3], buffer[4], start)
 
 
 @kernel
 def bound_window(
-    plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
+    plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, buffer: Vector
 ) -> tuple[bool, Enclosed]:
     """Nothing is computed ahead, because a piece's series is known already."""
     return False, seen
 
 
 @kernel
-def enclosed(plan: Vector, cursor: Cursor, room: Vector) -> Enclosed:
+def enclosed(plan: Vector, cursor: Cursor, buffer: Vector) -> Enclosed:
     """Bounds on a piece: none."""
     return ANYWHERE
 
@@ -274,7 +274,7 @@ def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: 
     if plan[par.HYSTERETIC] != 0.0:
         z, _ = at(plan, Z, (cursor.i + 0.5 + y) / PIECES)
         z = -z if mode == LEFT else z
-    return placed(plan, Motion(mode, 0, 0.0, v, faces, z, age, clock), x)
+    return at_coordinate(plan, Motion(mode, 0, 0.0, v, faces, z, age, clock), x)
 
 
 @kernel
@@ -318,7 +318,7 @@ def sample_stretch(
     i: int,
     n: int,
     series: Vector,
-    room: Vector,
+    buffer: Vector,
 ) -> Cursor:
     """The motion at n instants, as `linear.pieces.sample_stretch` says; `series` is not needed."""
     frame = frame_of(plan, before.mode)
@@ -328,7 +328,7 @@ def sample_stretch(
             cursor = following_window(plan, cursor)
         y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
         here = motion_at(plan, cursor.start, frame, y)
-        room[j], room[VELOCITY * BLOCK + j] = coordinate(plan, here), frame.sign * here.v
-        room[ACCELERATION * BLOCK + j] = frame.sign * acceleration(plan, here)
-        room[MEMORY * BLOCK + j] = here.z
+        buffer[j], buffer[VELOCITY * BLOCK + j] = coordinate(plan, here), frame.sign * here.v
+        buffer[ACCELERATION * BLOCK + j] = frame.sign * acceleration(plan, here)
+        buffer[MEMORY * BLOCK + j] = here.z
     return cursor

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.event import DETACHMENT, EASED, LIMIT, NEITHER, event_of
 from vibroimpact.engine.forcing.dispatch import stepped
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import STRIDE, Slot
@@ -18,7 +18,7 @@ from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
 from vibroimpact.engine.stops.places import overlapping
 from vibroimpact.engine.taylor.mode_forces import branch_of
-from vibroimpact.engine.taylor.pieces import coordinate, placed
+from vibroimpact.engine.taylor.pieces import at_coordinate, coordinate
 from vibroimpact.engine.taylor.step_events import (
     Found,
     earlier,
@@ -82,11 +82,11 @@ def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) 
         work += x ** (n + 1.0)
     deep = max(work ** (1.0 / (n + 1.0)), 1e-300)
     slot = _ROOT + STRIDE * stop
-    return Pressed(branch.way, slot, unit, push.dissipation / unit, rooted(deep, root))
+    return Pressed(branch.way, slot, unit, push.dissipation / unit, root_of_deformation(deep, root))
 
 
 @inlined
-def rooted(x: float, root: int) -> float:
+def root_of_deformation(x: float, root: int) -> float:
     """A root of m times a deformation."""
     if root == 2:
         return math.sqrt(2.0 * x)
@@ -131,7 +131,7 @@ def share_of(plan: Vector, time: float, last: float, late: float) -> float:
     return y
 
 
-@apart
+@not_inlined
 def pressed_for(
     plan: Vector, motion: Motion, frame: Frame, root: int, limit: float, begins: bool
 ) -> tuple[int, float, Motion]:
@@ -156,7 +156,7 @@ def pressed_for(
     ways = by.way if matters else 0.0
     per_unit = 1.0 / by.unit
     most = limit * per_unit
-    w = rooted(max(x, 0.0), root)
+    w = root_of_deformation(max(x, 0.0), root)
     here = motion
     t = 0.0
     event, leaves = NEITHER, event_of(DETACHMENT, main_stop(mode))
@@ -164,18 +164,18 @@ def pressed_for(
         shaken = Shaken(frame.sign, clock, by.unit, per_unit)
         h, after = certified_step(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
         ends = ends_of(plan, h, w, v, z, hysteretic)
-        found = Found(LIMIT, NEVER)
-        found = earlier(found, leaves, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
+        first = Found(LIMIT, NEVER)
+        first = earlier(first, leaves, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
         if by.chi != 0.0:
             line = Line(1.0, 0.0, by.chi, 0.0)
-            found = earlier(found, EASED, first_zero(plan, line, ends, 1.0 + by.chi * v))
+            first = earlier(first, EASED, first_zero(plan, line, ends, 1.0 + by.chi * v))
         if matters:
-            found = turns(plan, here, ways, frame.sign, ends, t, found)
+            first = turns(plan, here, ways, frame.sign, ends, t, first)
         step, last = plan[FOUND + F_T], h
-        if found.event != LIMIT:
-            last = found.t
+        if first.event != LIMIT:
+            last = first.t
             step, _, _ = summed(plan, T, last)
-        event = found.event
+        event = first.event
         if t + step > most:
             last, step = share_of(plan, most - t, last, step), most - t
             event = LIMIT
@@ -193,4 +193,4 @@ def pressed_for(
         here = Motion(mode, 0, 0.0, speed, faces, frame.sign * z, age, clock)
         if event != NEITHER or not (w > 0.0 and follows(by.chi, w, v, False)):
             break
-    return event, t * by.unit, placed(plan, here, raised(w, root))
+    return event, t * by.unit, at_coordinate(plan, here, raised(w, root))

@@ -17,7 +17,7 @@ from vibroimpact.engine.event import (
     YIELD,
     event_of,
 )
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.linear.roots import NONE, Clearance
 from vibroimpact.engine.motion import BOTH, RELEASED, SLIPPED, Motion, facing
 from vibroimpact.engine.series.events import (
@@ -74,9 +74,9 @@ class Found(NamedTuple):
 
 
 @inlined
-def earlier(found: Found, event: int, t: float) -> Found:
+def earlier(first: Found, event: int, t: float) -> Found:
     """The earlier of two events."""
-    return Found(event, t) if t < found.t else found
+    return Found(event, t) if t < first.t else first
 
 
 @inlined
@@ -121,7 +121,7 @@ def parts(plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float) -> f
 
 @kernel
 def earlier_release(
-    plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, found: Found
+    plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, first: Found
 ) -> Found:
     """Take the end of a push into account: a depth falls to 0, or 1 + χ δ′ changes sign."""
     facing = facing_of(motion.mode, stop)
@@ -129,7 +129,7 @@ def earlier_release(
     if facing < 0.0:
         level = -total_gap(plan)
     if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
-        found = own_eases(plan, stop, level, facing, ends, found)
+        first = own_eases(plan, stop, level, facing, ends, first)
     memory = motion.faces[stop]
     chi = push_of(plan, stop, 0.0, memory).dissipation * facing / unit
     if chi != 0.0:
@@ -138,17 +138,17 @@ def earlier_release(
         if abs(g) <= EVEN:
             g = 0.0
         line = Line(bend, 0.0, bend * chi, 0.0)
-        found = earlier(found, EASED, first_zero(plan, line, ends, bend * g))
+        first = earlier(first, EASED, first_zero(plan, line, ends, bend * g))
     g = level + facing * ends.x
     if motion.fresh & BOTH == 1 << stop:
         g = max(g, 0.0)
     event = event_of(DETACHMENT, stop)
-    return earlier(found, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
+    return earlier(first, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
 
 
-@apart
+@not_inlined
 def own_eases(
-    plan: Vector, stop: int, level: float, facing: float, ends: Ends, found: Found
+    plan: Vector, stop: int, level: float, facing: float, ends: Ends, first: Found
 ) -> Found:
     """Take the moment into account at which a stop's own formula changes its sign."""
     way = facing * plan[WAY]
@@ -165,9 +165,9 @@ def own_eases(
     # It is on this side of 0 by construction: what is not is rounding.
     plan[ASKED] = max(plan[ASKED], 0.0)
     if 2.0 * plan[ASKED] > spread:
-        return found
+        return first
     y = first_in_step(plan, Clearance(0.0, 1.0, 0.0, 0.0, False), False, False)
-    return earlier(found, EASED, y * ends.h) if y != NONE else found
+    return earlier(first, EASED, y * ends.h) if y != NONE else first
 
 
 @kernel
@@ -181,7 +181,7 @@ def starts_still(plan: Vector, motion: Motion) -> bool:
 
 @kernel
 def turns(
-    plan: Vector, motion: Motion, ways: float, sign: float, ends: Ends, since: float, found: Found
+    plan: Vector, motion: Motion, ways: float, sign: float, ends: Ends, since: float, first: Found
 ) -> Found:
     """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
     line = Line(0.0, 0.0, ways, 0.0)
@@ -190,35 +190,35 @@ def turns(
             t = searched(plan, line, FIXED, 0.0, True, ends.h)
         else:
             t = first_zero(plan, line, ends, 0.0)
-        found = earlier(found, TURN, t)
+        first = earlier(first, TURN, t)
     else:
-        found = earlier(found, TURN, first_zero(plan, line, ends, ways * ends.v))
+        first = earlier(first, TURN, first_zero(plan, line, ends, ways * ends.v))
     if plan[par.HYSTERETIC] == 0.0:
-        return found
+        return first
     z, limit = motion.z, plan[par.YIELD]
     way = ways * sign
     if limit < math.inf:
         if abs(z) < limit or way * z < 0.0:
             line = Line(limit, 0.0, 0.0, -ways)
-            found = earlier(found, YIELD, first_zero(plan, line, ends, limit - way * z))
+            first = earlier(first, YIELD, first_zero(plan, line, ends, limit - way * z))
     elif plan[par.KNEE] != 0.0 or int(plan[par.SHARPNESS]) % 2 == 0:
         side = math.copysign(1.0, z) if z != 0.0 else way
         line = Line(0.0, 0.0, 0.0, sign * side)
-        found = earlier(found, UNBENT, first_zero(plan, line, ends, abs(z)))
-    return found
+        first = earlier(first, UNBENT, first_zero(plan, line, ends, abs(z)))
+    return first
 
 
 @kernel
 def passes_centre(
-    plan: Vector, motion: Motion, offset: float, ends: Ends, since: float, found: Found
+    plan: Vector, motion: Motion, offset: float, ends: Ends, since: float, first: Found
 ) -> Found:
     """Take the moment into account at which u changes its sign."""
     side = plan[SIDE]
     line = Line(side * offset, side, 0.0, 0.0)
     if motion.u == 0.0 and motion.v == 0.0 and since == 0.0:
-        return earlier(found, CENTRED, searched(plan, line, FIXED, 0.0, True, ends.h))
+        return earlier(first, CENTRED, searched(plan, line, FIXED, 0.0, True, ends.h))
     g = max(side * (offset + ends.x), 0.0)
-    return earlier(found, CENTRED, first_zero(plan, line, ends, g))
+    return earlier(first, CENTRED, first_zero(plan, line, ends, g))
 
 
 @inlined
@@ -227,7 +227,7 @@ def search(
 ) -> Found:
     """The earliest event of the step in hand; free stops are as they were a time before."""
     mode, fresh = motion.mode, motion.fresh
-    found = Found(LIMIT, NEVER)
+    first = Found(LIMIT, NEVER)
     for stop in range(2):
         kind = plan[par.stop_at(stop) + par.KIND]
         if kind == par.ABSENT:
@@ -235,9 +235,9 @@ def search(
         if mode >> stop & 1:
             event = event_of(DETACHMENT, stop)
             if kind == par.KELVIN_VOIGT:
-                found = earlier(found, event, parts(plan, motion, stop, ends, unit))
+                first = earlier(first, event, parts(plan, motion, stop, ends, unit))
             elif kind != par.RIGID:
-                found = earlier_release(plan, motion, stop, ends, unit, found)
+                first = earlier_release(plan, motion, stop, ends, unit, first)
             continue
         if mode and not overlapping(plan):
             continue
@@ -252,9 +252,9 @@ def search(
         free = Free(memory, rate, since, just, just and fresh & RELEASED != 0)
         size = abs(level) + abs(ends.x)
         t = met(plan, level, sign, free, ends, _FADED * size)
-        found = earlier(found, event_of(CONTACT, stop), t)
+        first = earlier(first, event_of(CONTACT, stop), t)
     if ways != 0.0:
-        found = turns(plan, motion, ways, frame.sign, ends, since, found)
+        first = turns(plan, motion, ways, frame.sign, ends, since, first)
     if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X:
-        found = passes_centre(plan, motion, frame.offset, ends, since, found)
-    return found
+        first = passes_centre(plan, motion, frame.offset, ends, since, first)
+    return first

@@ -58,7 +58,7 @@ def careful(
     for n in range(ORDER - 1):
         asked[n] = (n + 1) * x[n + 1]
     asked[ORDER - 1] = 0.0
-    found = TURN
+    event = TURN
     first = first_root(asked, Clearance(0.0, way, 0.0, 0.0, False), low, high)
     if push_x != 0.0:
         for n in range(ORDER):
@@ -68,20 +68,20 @@ def careful(
             asked[0] = max(asked[0], 0.0)
         y = first_root(asked, Clearance(0.0, 1.0, 0.0, 0.0, False), low, high)
         if y < first:
-            found, first = DETACHMENT, y
+            event, first = DETACHMENT, y
     if stop < math.inf and not start & FROM_AHEAD:
         y = first_root(x, Clearance(stop, -way, memory, rate * h, False), low, high)
         if y < first:
-            found, first = event_of(CONTACT, AHEAD), y
+            event, first = event_of(CONTACT, AHEAD), y
     if yields < math.inf:
         y = first_root(x, Clearance(yields, -way, 0.0, 0.0, False), low, high)
         if y < first:
-            found, first = YIELD, y
+            event, first = YIELD, y
     if behind_memory > 0.0 and not start & FROM_BEHIND:
         clearance = Clearance(-behind, way, behind_memory, behind_rate * h, False)
         y = first_root(x, clearance, low, high)
         if y < first:
-            found, first = event_of(CONTACT, BEHIND), y
+            event, first = event_of(CONTACT, BEHIND), y
     if start & (FROM_AHEAD | FROM_BEHIND):
         ahead = start & FROM_AHEAD != 0
         side = ABOVE if (way > 0.0) == ahead else BELOW
@@ -89,5 +89,5 @@ def careful(
             behind_memory, behind_rate = memory, rate
         y = leave(x, side, start & SOFTLY != 0, behind_memory, behind_rate * h, high)
         if y < first:
-            found, first = event_of(CONTACT, AHEAD if ahead else BEHIND), y
-    return (found, first + middle) if first != NONE else (LIMIT, NONE)
+            event, first = event_of(CONTACT, AHEAD if ahead else BEHIND), y
+    return (event, first + middle) if first != NONE else (LIMIT, NONE)

@@ -103,7 +103,7 @@ def follow_leg(
             i = j - 1
             done = j
             near = node(plan, table, i, row)
-            found, y, end = LIMIT, NONE, near
+            event, y, end = LIMIT, NONE, near
             cleared = False
             if before_x >= bottom or j <= clear_behind:
                 # The usual case: one end, clean.
@@ -115,11 +115,11 @@ def follow_leg(
                 if moves and presses and before_x < top:
                     cleared = inside
                     if yields < stop:
-                        found = YIELD
+                        event = YIELD
                     elif stop + relaxed(memory, rate, t + i * h) == stop:
-                        found = event_of(CONTACT, AHEAD)
+                        event = event_of(CONTACT, AHEAD)
                 elif presses and vs < 0.0 and before_v > 0.0:
-                    found, weight_x, weight_v, level, most = (
+                    event, weight_x, weight_v, level, most = (
                         TURN,
                         0.0,
                         -way * per_second,
@@ -128,7 +128,7 @@ def follow_leg(
                     )
                     earlier, before, now = -earlier_v, -before_v, -vs
                 elif inside and moves and force < 0.0 and before_force > 0.0:
-                    found, level, most = DETACHMENT, push_0, bend_force
+                    event, level, most = DETACHMENT, push_0, bend_force
                     weight_x, weight_v = -way * push_x, -way * push_v * per_second
                     earlier = push_0 - earlier_force
                     before, now = push_0 - before_force, push_0 - force
@@ -139,12 +139,12 @@ def follow_leg(
                     if cleared and not presses:
                         slope = push_x * (vs * h) + push_v * slope * per_second
                         cleared = -2.0 * slope >= bend_force
-                if found != LIMIT and not cleared:
+                if event != LIMIT and not cleared:
                     guess = crossing_guess(earlier, before, now, level, j)
                     y, steep, end = quick_root(plan, table, weight_x, weight_v, level, guess, near)
                     if not 2.0 * steep > most * y:
                         y = NONE
-                    if found == TURN and way * end.x >= top:
+                    if event == TURN and way * end.x >= top:
                         y = NONE
                     elif y != NONE and i + y > span:
                         break
@@ -152,18 +152,18 @@ def follow_leg(
                 left = relaxed(memory, rate, t + i * h)
                 left_behind = relaxed(behind_memory, behind_rate, t + i * h)
                 low, high = 0.0, min(1.0, span - i)
-                found = LIMIT
+                event = LIMIT
                 if i == 0 and start & BEGUN:
                     low = min(0.5, high)
-                    found, y = careful(plan, table, leg, near, start, left, left_behind, 0.0, low)
+                    event, y = careful(plan, table, leg, near, start, left, left_behind, 0.0, low)
                     left = relaxed(left, rate, low * h)
                     left_behind = relaxed(left_behind, behind_rate, low * h)
-                if found == LIMIT and low < high:
-                    found, y = careful(plan, table, leg, near, PLAIN, left, left_behind, low, high)
-                if found != LIMIT:
+                if event == LIMIT and low < high:
+                    event, y = careful(plan, table, leg, near, PLAIN, left, left_behind, low, high)
+                if event != LIMIT:
                     end = travel(plan, table, y, near)
             if y != NONE:
-                return found, t + (i + y) * h, end
+                return event, t + (i + y) * h, end
         if span <= NODES:
             return LIMIT, limit, ended(plan, table, row, span)
         row = next_window(plan, table, row)

@@ -6,14 +6,14 @@ from vibroimpact.engine.assembly import advance as linear
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.advance import relax, remember
 from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.event_functions import first_of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import take_end, take_step, travel
 from vibroimpact.engine.assembly.curved.terms import expand_over
-from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, event_of
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 _SAME = 1e-12
@@ -37,7 +37,7 @@ def _gone(plan: Vector, y: Vector) -> bool:
     return not total < 1e200
 
 
-@apart
+@not_inlined
 def next_curved_stretch(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 
@@ -100,7 +100,7 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
     return event
 
 
-@apart
+@not_inlined
 def reopen(plan: Vector) -> None:
     """Write the series of the last stretch again, on its whole length.
 

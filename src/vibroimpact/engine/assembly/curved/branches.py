@@ -33,12 +33,12 @@ def _with(mode: int, bit: int, value: bool) -> int:
 @kernel
 def with_way(plan: Vector, f: int, mode: int, way: float) -> int:
     """The mode in which s′ has this sign at a row."""
-    found: int = _with(mode, _bit(plan, f, 0), way < 0.0)
-    return found
+    new_mode: int = _with(mode, _bit(plan, f, 0), way < 0.0)
+    return new_mode
 
 
 @kernel
 def with_side(plan: Vector, f: int, mode: int, side: float) -> int:
     """The mode in which a row has this side."""
-    found: int = _with(mode, _bit(plan, f, 1), side < 0.0)
-    return found
+    new_mode: int = _with(mode, _bit(plan, f, 1), side < 0.0)
+    return new_mode

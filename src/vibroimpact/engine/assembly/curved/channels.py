@@ -9,10 +9,10 @@ from vibroimpact.engine.assembly.channels import close_stretch, piece_length, pi
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.advance import reopen
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
+from vibroimpact.engine.assembly.curved.event_functions import held_force, relative
 from vibroimpact.engine.assembly.curved.terms import node, remembers, row_of
-from vibroimpact.engine.assembly.curved.watch import held_force, relative
 from vibroimpact.engine.channels import CLEARANCE, DEFORMATION, FADING, FORCE, RATE, evaluate
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 __all__ = ["close_stretch", "open_piece", "open_stretch", "piece_length", "pieces", "value"]
@@ -65,7 +65,7 @@ def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
     return order
 
 
-@apart
+@not_inlined
 def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
     if channel >= CLEARANCE:
@@ -87,8 +87,8 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
                 for j in range(order + 1):
                     out[j] = plan[force + j]
             return order
-    found: int = linear.series(plan, channel, index, out)
-    return found
+    linear_order: int = linear.series(plan, channel, index, out)
+    return linear_order
 
 
 @kernel
@@ -96,5 +96,5 @@ def value(plan: Vector, channel: int, index: int, tau: float) -> float:
     """A channel's value on the piece."""
     out = beyond(plan, int(plan[at.ROOM]))
     order = series(plan, channel, index, out)
-    found: float = evaluate(out, order, tau)
-    return found
+    channel_value: float = evaluate(out, order, tau)
+    return channel_value

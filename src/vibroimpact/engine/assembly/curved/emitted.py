@@ -62,14 +62,14 @@ class Memory(NamedTuple):
     matrix: Any
     columns: Any
     forces: Any
-    found: Any
+    outputs: Any
     kept: Any
     laws: Any
     state: Any
 
 
 OFF, REACH = 16, 32
-"""Where in `found`."""
+"""Where in `outputs`."""
 
 
 def shape_of(vector: Vector) -> Shape | None:
@@ -204,7 +204,7 @@ def _linear(
 def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
     """Write the series of a state in t / unit.
 
-    `found` has what constant forces and deformations of pressed stops accelerate.
+    `outputs` has what constant forces and deformations of pressed stops accelerate.
     """
     series = memory.series
     n, order, width = shape.masses, of.CODE_ORDER, _width(shape)
@@ -217,12 +217,12 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
     for q, one in enumerate(waves):
         series.store(2 * v + q, one)
     forcing = _Forcing(shape, memory, waves, unit, omega)
-    laws = [_Law(row, memory, _apart(row, u_now, n)) for row in shape.rows]
+    laws = [_Law(row, memory, _relative(row, u_now, n)) for row in shape.rows]
     acts = [
         memory.forces.load_lanes(8 * law.row.place, width).times([law.factor] * width, None)
         for law in laws
     ]
-    accelerations = memory.found.load_lanes(0, width).first(n)
+    accelerations = memory.outputs.load_lanes(0, width).first(n)
     for column, values in ((0, u_now), (v, v_now)):
         for q in range(n):
             by = memory.matrix.load_lanes(8 * (column + q), width).first(n)
@@ -236,7 +236,7 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
         if k > 0:
             total = _linear(shape.stiffness, memory.columns, 0, u_now, n, forcing(k))
             for law, act in zip(laws, acts, strict=True):
-                total = act.times(law.force(_apart(law.row, u_now, n), k), total)
+                total = act.times(law.force(_relative(law.row, u_now, n), k), total)
             accelerations = _linear(shape.damping, memory.columns, n, v_now, n, total)
         if k == order:
             break
@@ -308,10 +308,10 @@ class _Forcing:
 def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
     """Write the state at tau of the series in hand, and what is missing from the equations there.
 
-    Into `found`: what the displacements have gained, by how much the velocities' growth is off,
+    Into `outputs`: what the displacements have gained, by how much the velocities' growth is off,
     and how far each mass can have gone.
     """
-    series, found, kept = memory.series, memory.found, memory.kept
+    series, outputs, kept = memory.series, memory.outputs, memory.kept
     n, order, width = shape.masses, of.CODE_ORDER, _width(shape)
     v = n + 1
     square = tau * tau
@@ -339,7 +339,7 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
         waves.append(one)
         total = memory.matrix.load_lanes(8 * (2 * v + q), width).times(one, total)
     for row in shape.rows:
-        values = {row.s: memory.nodes.load(row.s * at.TERMS) + _apart(row, u, n)}
+        values = {row.s: memory.nodes.load(row.s * at.TERMS) + _relative(row, u, n)}
         for out, code, a, b in row.operations:
             x = values[a] if a in values else memory.nodes.load(a * at.TERMS)
             y = values[b] if b in values else memory.nodes.load(b * at.TERMS)
@@ -349,11 +349,11 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
     total = _linear(shape.stiffness, memory.columns, 0, u, n, total)
     total = _linear(shape.damping, memory.columns, n, gain, n, total)
     off = grown + total * (unit * tau * -1.0)
-    found.store_lanes(0, u)
-    found.store(n, 0.0)
-    found.store_lanes(OFF, off.first(n).absolute())
-    found.store_lanes(REACH, reach)
-    found.store(REACH + n, 0.0)
+    outputs.store_lanes(0, u)
+    outputs.store(n, 0.0)
+    outputs.store_lanes(OFF, off.first(n).absolute())
+    outputs.store_lanes(REACH, reach)
+    outputs.store(REACH + n, 0.0)
     kept.store_lanes(0, series.load_lanes(0, width) + u)
     kept.store_lanes(n, series.load_lanes(v, width) + gain)
     for q in range(shape.waves):
@@ -459,7 +459,7 @@ class _Law:
         return self._last[one] if one in self._last else self._node(one, k)
 
 
-def _apart(row: Row, values: Any, n: int) -> Any:
+def _relative(row: Row, values: Any, n: int) -> Any:
     if row.left == n:
         return values.lane(row.right)
     left = values.lane(row.left)

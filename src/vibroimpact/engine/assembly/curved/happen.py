@@ -15,7 +15,7 @@ from vibroimpact.engine.assembly.curved.terms import (
 from vibroimpact.engine.assembly.events import closing, impacts, let_part, speeds, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, TURN
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 _CHATTERED = 1e-6
@@ -78,8 +78,8 @@ def _yield_or_not(plan: Vector, mode: int, f: int, rate: float, deformation: Vec
     if abs(z) >= limit and not yields:
         place = int(plan[at.ZEROS]) + f
         plan[place] = float(int(plan[place]) | of.SIDE_FRESH)
-    found: int = with_side(plan, f, mode, -1.0 if yields else 1.0)
-    return found
+    new_mode: int = with_side(plan, f, mode, -1.0 if yields else 1.0)
+    return new_mode
 
 
 @kernel
@@ -129,7 +129,7 @@ def _touch_without_speed(plan: Vector, mode: int, f: int, y: Vector, deformation
             plan[zeros + g] = 2.0
 
 
-@apart
+@not_inlined
 def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     """Which links without speed friction holds; the most overloaded slides first.
 
@@ -172,7 +172,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
     return mode
 
 
-@apart
+@not_inlined
 def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     """Find the branches of all links from a state alone. Returns the mode, which is entered."""
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
@@ -261,7 +261,7 @@ def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation:
     return with_side(plan, f, mode, -side_of(plan, f, mode))
 
 
-@apart
+@not_inlined
 def switch(
     plan: Vector, mode: int, f: int, which: int, y: Vector, deformation: Vector
 ) -> tuple[int, int]:
@@ -290,5 +290,5 @@ def switch(
         enter_mode(plan, mode)
         mode = _impact(plan, mode, f, y, deformation)
         return decide(plan, mode, y, deformation), IMPACT
-    found: tuple[int, int] = switch_mode(plan, mode, f, y, deformation)
-    return found
+    mode_and_event: tuple[int, int] = switch_mode(plan, mode, f, y, deformation)
+    return mode_and_event

@@ -32,7 +32,7 @@ def link_rows(numbers: IsolatorNumbers, damping: float) -> list[tuple[int, tuple
         Its damping coefficient, which counts if the dashpot is not linear.
     """
     none = IsolatorNumbers()
-    found = []
+    laws = []
     smooth = none._replace(
         cubic=numbers.cubic,
         quintic=numbers.quintic,
@@ -40,7 +40,7 @@ def link_rows(numbers: IsolatorNumbers, damping: float) -> list[tuple[int, tuple
         sinh_rate=numbers.sinh_rate,
     )
     if numbers.cubic or numbers.quintic or numbers.sinh:
-        found.append((of.SMOOTH, smooth, 0.0))
+        laws.append((of.SMOOTH, smooth, 0.0))
     if numbers.hysteretic:
         law = none._replace(
             hysteretic=numbers.hysteretic,
@@ -50,16 +50,16 @@ def link_rows(numbers: IsolatorNumbers, damping: float) -> list[tuple[int, tuple
             sharpness=numbers.sharpness,
             limit=numbers.limit,
         )
-        found.append((of.BILINEAR if numbers.limit < math.inf else of.HYSTERETIC, law, 0.0))
+        laws.append((of.BILINEAR if numbers.limit < math.inf else of.HYSTERETIC, law, 0.0))
     if numbers.friction:
-        found.append((of.FRICTION, none._replace(friction=numbers.friction), 0.0))
+        laws.append((of.FRICTION, none._replace(friction=numbers.friction), 0.0))
     if numbers.own:
-        found.append((of.OWN, none._replace(own=numbers.own), 0.0))
+        laws.append((of.OWN, none._replace(own=numbers.own), 0.0))
     if numbers.drag != 1.0 and damping:
-        found.append((of.DRAG, none._replace(drag=numbers.drag), damping))
+        laws.append((of.DRAG, none._replace(drag=numbers.drag), damping))
     return [
         (behaviour, tuple(rig_vector(1.0, 0.0, by, None, None, law=law).tolist()))
-        for behaviour, law, by in found
+        for behaviour, law, by in laws
     ]
 
 

@@ -18,7 +18,7 @@ from vibroimpact.engine.assembly.curved.terms import (
 )
 from vibroimpact.engine.assembly.events import closing, speeds
 from vibroimpact.engine.assembly.rates import HEAD, rates_of_mode
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.values import Push
@@ -106,8 +106,8 @@ def dissipation(plan: Vector, row: int, met: float, size: float) -> float:
     chi = plan[row + _STOP + par.DISSIPATION]
     if chi < 0.0:
         chi = -chi / met if met > _UNMET * size else 0.0
-    found: float = chi
-    return found
+    coefficient: float = chi
+    return coefficient
 
 
 @kernel
@@ -131,7 +131,7 @@ def _is_held(plan: Vector, f: int) -> bool:
     return bool(parts == 0.0)
 
 
-@apart
+@not_inlined
 def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
     """Write the numbers of all laws for a step from a state; how long it may be by them (s)."""
     n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.MODE])
@@ -176,7 +176,7 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
     for f in range(count):
         row = row_of(plan, f)
         if int(plan[row + of.BEHAVIOUR]) == of.OWN_STOP and plan[row + of.ACTIVE] != 0.0:
-            _own(plan, f, row, y, deformation, closing(plan, f, beyond(plan, place)))
+            _number_formula(plan, f, row, y, deformation, closing(plan, f, beyond(plan, place)))
     return longest
 
 
@@ -200,8 +200,8 @@ def _drag(plan: Vector, f: int, row: int, rate: float, gains: float) -> float:
     )
     if abs(rate) <= little:
         plan[row + of.ACTIVE] = 0.0
-    found: float = min(longest, turning)
-    return found
+    duration: float = min(longest, turning)
+    return duration
 
 
 @kernel
@@ -229,12 +229,14 @@ def _power(plan: Vector, f: int, row: int, y: Vector, gains: float, longest: flo
     left, longest = shallow(left, depth, rate, gains, _quickest(plan, f), grain, longest)
     if left.stiffness == 0.0:
         plan[row + of.ACTIVE] = 0.0
-    found: float = longest
-    return found
+    duration: float = longest
+    return duration
 
 
 @kernel
-def _own(plan: Vector, f: int, row: int, y: Vector, deformation: Vector, gains: float) -> None:
+def _number_formula(
+    plan: Vector, f: int, row: int, y: Vector, deformation: Vector, gains: float
+) -> None:
     """Whether a stop of a formula pushes: where that is above 0, or about to be."""
     n = int(plan[at.MASSES])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH

@@ -59,12 +59,12 @@ def place(plan: Vector, state: Vector) -> None:
     for f in range(count):
         plan[kept + f] = deformation[f]
     linear.place(plan, state)
-    found = int(state[at.STATE_MODE])
+    new_mode = int(state[at.STATE_MODE])
     for f in range(count):
         if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] >= at.PUSHING:
-            found &= ~(1 << f)
+            new_mode &= ~(1 << f)
             deformation[f] = plan[kept + f]
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(found | touched), of.NEW
+    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode | touched), of.NEW
 
 
 @kernel
@@ -111,17 +111,17 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
         state[at.PARTS + 2 * n + f] = -state[at.PARTS + 2 * n + f]
         for i in range(width):
             q[i * width + 2 * n + f] = -q[i * width + 2 * n + f]
-    found = int(state[at.STATE_MODE])
+    new_mode = int(state[at.STATE_MODE])
     for f in range(count):
         row = row_of(plan, f)
         if plan[row + of.BRANCH] < 0.0:
             continue
-        found = with_way(plan, f, found, -way_of_slide(plan, f, mode))
+        new_mode = with_way(plan, f, new_mode, -way_of_slide(plan, f, mode))
         side = side_of(plan, f, mode)
         if int(plan[row + of.BEHAVIOUR]) != of.BILINEAR:
             side = -side
-        found = with_side(plan, f, found, side)
-    state[at.STATE_MODE] = float(found)
+        new_mode = with_side(plan, f, new_mode, side)
+    state[at.STATE_MODE] = float(new_mode)
 
 
 @kernel

@@ -19,7 +19,7 @@ from vibroimpact.engine.assembly.curved.terms import (
 )
 from vibroimpact.engine.assembly.series import travel_by_series
 from vibroimpact.engine.assembly.vectors import binary_logarithm, binary_power, slopes
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
@@ -102,10 +102,10 @@ def take_end(plan: Vector, y: Vector, deformation: Vector) -> None:
 @kernel
 def _excess_by_code(plan: Vector, deformation: Vector, tau: float, size: float) -> float:
     run_code(plan, 1, beyond(plan, int(plan[at.Y])), plan[at.PIECE_LENGTH], tau)
-    found, memory = beyond(plan, int(plan[at.OUTPUTS])), beyond(plan, _kept_memory(plan))
+    outputs, memory = beyond(plan, int(plan[at.OUTPUTS])), beyond(plan, _kept_memory(plan))
     most = 0.0
     for i in range(int(plan[at.MASSES])):
-        off = found[OFF + i]
+        off = outputs[OFF + i]
         if not off <= most and most == most:
             most = off
     for f in range(int(plan[at.STOPS])):
@@ -114,7 +114,7 @@ def _excess_by_code(plan: Vector, deformation: Vector, tau: float, size: float) 
     for p in range(int(plan[at.PRESSED])):
         f = int(plan[listed + p])
         one = stops + f * at.STOP_WIDTH
-        memory[f] += found[int(plan[one + at.LEFT])] - found[int(plan[one + at.RIGHT])]
+        memory[f] += outputs[int(plan[one + at.LEFT])] - outputs[int(plan[one + at.RIGHT])]
     return most / (BALANCED * size + 1e-300)
 
 
@@ -146,17 +146,17 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
     for f in range(count):
         law = row_of(plan, f)
         if remembers(plan, law):
-            z, found = node(plan, law, of.Z_NODE, int(plan[at.NODES])), 0.0
+            z, slope = node(plan, law, of.Z_NODE, int(plan[at.NODES])), 0.0
             for j in range(order, 0, -1):
-                found = found * tau + j * plan[z + j]
+                slope = slope * tau + j * plan[z + j]
             flow = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
-            off = rate * abs(found * tau - flow * h)
+            off = rate * abs(slope * tau - flow * h)
             if not off <= most and most == most:
                 most = off
     return most / (BALANCED * size + 1e-300)
 
 
-@apart
+@not_inlined
 def take_step(
     plan: Vector, y: Vector, deformation: Vector, left: float, longest: float, size: float
 ) -> float:

@@ -39,7 +39,7 @@ from vibroimpact.engine.event import (
     kind_of,
     stop_of,
 )
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import DAMPING
 
@@ -207,7 +207,7 @@ def _lost(plan: Vector, h: float) -> float:
     return total
 
 
-@apart
+@not_inlined
 def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     """Carry the rows of q through the last stretch and its event.
 
@@ -266,10 +266,10 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
 def _rates(plan: Vector, into: int) -> None:
     """Write z′ of each row, as the laws were evaluated last."""
     for f in range(int(plan[at.STOPS])):
-        law, found = row_of(plan, f), 0.0
+        law, rate = row_of(plan, f), 0.0
         if remembers(plan, law):
-            found = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
-        plan[into + f] = found
+            rate = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
+        plan[into + f] = rate
 
 
 @kernel

@@ -9,7 +9,7 @@ from vibroimpact.engine.series import layout as series
 from vibroimpact.engine.series.code_generation import whole_power
 from vibroimpact.engine.series.laws import contact
 from vibroimpact.engine.series.slopes import Varied, Varying
-from vibroimpact.engine.series.step import Law, Shape, isolator, memory
+from vibroimpact.engine.series.step import LawNumbers, Shape, isolator, memory
 
 (
     INPUT,
@@ -159,7 +159,7 @@ def written(nodes: list[Node], places: dict[Node, int]) -> list[list[float]]:
     return rows
 
 
-class Symbols(Law):
+class Symbols(LawNumbers):
     """The numbers of a law and its functions, for symbols."""
 
     def tanh(self, one: Any) -> Any:
@@ -193,8 +193,8 @@ class Written:
         self.rows: list[list[float]] = []
         places = {one: begin + i for i, one in enumerate(nodes)}
         self.rows += written(nodes, places)
-        found = (s, v, z, force, flow, raw)
-        self.nodes = [-1 if one is None else places[one] for one in found]
+        key_nodes = (s, v, z, force, flow, raw)
+        self.nodes = [-1 if one is None else places[one] for one in key_nodes]
         known = [len(tape.constants), len(tape.series)]
         moved = (Varied(one, {name: 1.0}) for one, name in ((s, "s"), (v, "v"), (z, "z")))
         force, flow = _run(VaryingSymbols(tape), shape, *moved)

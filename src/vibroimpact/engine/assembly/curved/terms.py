@@ -14,7 +14,7 @@ from vibroimpact.engine.assembly.curved.emitted import call
 from vibroimpact.engine.assembly.rates import HEAD, apply_rates, closed_place, rates_of_mode
 from vibroimpact.engine.assembly.series import expanding
 from vibroimpact.engine.assembly.vectors import convolve, convolve_weighted
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 _T = at.TERMS
@@ -190,7 +190,7 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, forces: Vec
 _FRICTION = of.NUMBERS + par.FRICTION
 
 
-@apart
+@not_inlined
 def expand_slopes(plan: Vector) -> None:
     """Write the series of the slopes of all forces that act, over the series in hand."""
     base = int(plan[at.NODES])
@@ -268,7 +268,7 @@ def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, orde
     _expand_by_code(plan, y, deformation, length)
 
 
-@apart
+@not_inlined
 def _expand_by_code(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
     of_ = places(plan)
     n, row, count = of_.masses, int(plan[at.ROW]), int(plan[at.STOPS])
@@ -309,7 +309,7 @@ def share_of_unit(plan: Vector, share: float) -> None:
         power *= share
 
 
-@apart
+@not_inlined
 def shorten(plan: Vector, share: float) -> None:
     """Turn the series in hand into series on this share of their unit."""
     count, row, base = int(plan[at.STOPS]), int(plan[at.ROW]), int(plan[at.NODES])
@@ -342,7 +342,7 @@ def expand_over(plan: Vector, y: Vector, deformation: Vector, length: float) -> 
     shorten(plan, length / unit)
 
 
-@apart
+@not_inlined
 def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: int) -> None:
     """Write the accelerations of a state y, u, v, w, in the mode that was entered.
 
@@ -367,9 +367,9 @@ def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: in
         if remembers(plan, law):
             plan[node(plan, law, of.Z_NODE, base)] = deformation[f]
     push(plan, of_, here, 0, base, beyond(inputs, 1 + of_.pressed))
-    found = beyond(plan, int(plan[at.OUTPUTS]))
-    apply_rates(plan, rates, here, inputs, 0, found)
+    outputs = beyond(plan, int(plan[at.OUTPUTS]))
+    apply_rates(plan, rates, here, inputs, 0, outputs)
     for i in range(n):
-        plan[place + i] = found[i]
+        plan[place + i] = outputs[i]
     for p in range(of_.pressed + of_.resting):
-        plan[place + n + 1 + p] = found[n + p]
+        plan[place + n + 1 + p] = outputs[n + p]

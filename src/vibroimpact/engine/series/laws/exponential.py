@@ -12,7 +12,7 @@ def shape(rig: Any) -> tuple[Any, ...]:
     return (True,) if rig[par.SINH] != 0.0 else ()
 
 
-def force(law: Any, found: tuple[Any, ...], u: Any, v: Any, z: Any) -> Any:
+def force(law: Any, flags: tuple[Any, ...], u: Any, v: Any, z: Any) -> Any:
     """Return what pulls back."""
     steep = u * law.sinh_rate
     return law.sinh * (law.exp(steep) - law.exp(-steep))

@@ -17,9 +17,9 @@ from vibroimpact.engine.fixed_point import DYING
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.one_mass import extremes
-from vibroimpact.engine.sections import observed, repeated, row_room
+from vibroimpact.engine.sections import observed, repeated, row_buffer
 from vibroimpact.engine.settling import settle
-from vibroimpact.engine.state import begin_again, measures_room, put, room, wind
+from vibroimpact.engine.state import begin_again, measures_buffer, put, state_buffer, wind
 from vibroimpact.engine.status import DONE, NOT_SETTLED, TOO_MUCH_WORK
 
 PERIOD, CYCLES, OUTCOME = range(3)
@@ -64,8 +64,8 @@ def measure(
 
     `progress` as in `sections.loop`.
     """
-    start, row = room(), row_room()
-    notes, other = measures_room(), measures_room()
+    start, row = state_buffer(), row_buffer()
+    notes, other = measures_buffer(), measures_buffer()
     cycle = repeated(row, s, c, period)
     flow.nothing(plan, notes)
     put(plan, state, start)

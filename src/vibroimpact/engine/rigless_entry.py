@@ -8,26 +8,26 @@ from typing import Any, NamedTuple
 from vibroimpact.engine.compilation import Compiled
 
 
-class Alone(NamedTuple):
+class NoRig(NamedTuple):
     """What stands in the place of the room for a rig's plan."""
 
     nothing: float = 0.0
 
 
-class Single(Compiled):
-    """A compiled function of numbers and arrays; it gets an `Alone` as its first argument."""
+class RiglessEntry(Compiled):
+    """A compiled function of numbers and arrays; it gets an `NoRig` as its first argument."""
 
     FIRST = "f8"
 
     def __call__(self, *args: Any) -> Any:
         """Run, compiling or loading first if this is the first call of the process."""
-        return self.of(Alone())(Alone(), *args)
+        return self.of(NoRig())(NoRig(), *args)
 
     def prepare(self, *rigs: Any) -> None:
         """Compile, or load from the cache."""
-        self.of(Alone())
+        self.of(NoRig())
 
 
-def single(signature: str) -> Callable[[Callable[..., Any]], Single]:
+def rigless_entry(signature: str) -> Callable[[Callable[..., Any]], RiglessEntry]:
     """Mark a function that Python calls; the signature is that of what follows the first."""
-    return lambda function: Single(function, signature)
+    return lambda function: RiglessEntry(function, signature)

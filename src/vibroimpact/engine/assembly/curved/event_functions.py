@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly.curved.terms import coded, node, row_of
 from vibroimpact.engine.assembly.events import speeds
 from vibroimpact.engine.assembly.roots import NONE, first_fall
 from vibroimpact.engine.assembly.series import to_bernstein, watched_series
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
 
 _WRONG = 1e-14
@@ -29,7 +29,7 @@ _LIMIT = of.NUMBERS + par.YIELD
 _FRICTION = of.NUMBERS + par.FRICTION
 
 
-@apart
+@not_inlined
 def fall(plan: Vector, a: Vector, size: float, fresh: bool, end: float) -> float:
     """When a series first falls through zero, as a share of the step, or NONE.
 
@@ -40,11 +40,11 @@ def fall(plan: Vector, a: Vector, size: float, fresh: bool, end: float) -> float
         zeros = 1
         while zeros < 3 and abs(a[zeros]) <= _ZERO * size:
             zeros += 1
-    found: float = _fall_from(plan, a, size, zeros, end)
-    return found
+    share: float = _fall_from(plan, a, size, zeros, end)
+    return share
 
 
-@apart
+@not_inlined
 def _fall_from(plan: Vector, a: Vector, size: float, zeros: int, end: float) -> float:
     """As `fall`, of a series that begins with a zero of this order."""
     order = int(plan[at.ORDER])
@@ -61,8 +61,8 @@ def _fall_from(plan: Vector, a: Vector, size: float, zeros: int, end: float) -> 
     to_bernstein(plan, a, b)
     for j in range(zeros):
         b[j] = 0.0
-    found: float = first_fall(b, 0.0, 0.0, end, zeros, _ROUNDING * size + 1e-300, plan)
-    return found
+    share: float = first_fall(b, 0.0, 0.0, end, zeros, _ROUNDING * size + 1e-300, plan)
+    return share
 
 
 @kernel
@@ -96,7 +96,7 @@ def held_force(plan: Vector, f: int) -> int:
 def held_alike(plan: Vector, f: int) -> bool:
     """Whether friction holds the two ends of a row together."""
     stops = int(plan[at.STOP])
-    one, found = stops + f * at.STOP_WIDTH, False
+    one, is_held = stops + f * at.STOP_WIDTH, False
     for j in range(int(plan[at.RESTING])):
         g = int(plan[int(plan[at.RESTING_LIST]) + j])
         other = stops + g * at.STOP_WIDTH
@@ -105,8 +105,8 @@ def held_alike(plan: Vector, f: int) -> bool:
             same = same and plan[one + at.RIGHT] == plan[other + at.RIGHT]
             turned = plan[one + at.LEFT] == plan[other + at.RIGHT]
             turned = turned and plan[one + at.RIGHT] == plan[other + at.LEFT]
-            found = found or same or turned
-    return found
+            is_held = is_held or same or turned
+    return is_held
 
 
 @kernel
@@ -115,8 +115,8 @@ def _ways(
 ) -> float:
     """When the closing speed, times a sign, falls to zero."""
     relative(plan, f, 1, sign, a)
-    found: float = fall(plan, a, size, fresh, end)
-    return found
+    share: float = fall(plan, a, size, fresh, end)
+    return share
 
 
 @kernel
@@ -131,7 +131,7 @@ def _of_link(
     if behaviour == of.FRICTION and mode >> f & 1:
         place, count, most = held_force(plan, f), int(plan[at.STOPS]), 0.0
         powers = int(plan[at.POWERS])
-        found, which = NONE, 0
+        earliest, which = NONE, 0
         for j in range(int(plan[at.ORDER]) + 1):
             most = max(most, abs(plan[powers + j] * plan[place + j * count]))
         for k in range(2):
@@ -139,26 +139,26 @@ def _of_link(
                 a[j] = plan[powers + j] * plan[place + j * count] * (1.0 if k else -1.0)
             a[0] += plan[row + _FRICTION]
             t = fall(plan, a, plan[row + _FRICTION] + 10.0 * most, False, end)
-            if t <= end and t < found:
-                found, which = t, k
-        return found, which
+            if t <= end and t < earliest:
+                earliest, which = t, k
+        return earliest, which
     if held_alike(plan, f):
         return NONE, 0
     if behaviour == of.BILINEAR and side > 0.0:
         limit = plan[row + _LIMIT]
         z = node(plan, row, of.Z_NODE, int(plan[at.NODES]))
-        found, which = NONE, 0
+        earliest, which = NONE, 0
         for k in range(2):
             _times(plan, z, 1.0 if k else -1.0, a)
             a[0] += limit
             at_limit = side_fresh and (plan[z] < 0.0) == (k == 1)
             t = fall(plan, a, limit, at_limit, end)
-            if t <= end and t < found:
-                found, which = t, k
-        return found, which
-    found, which = NONE, 0
+            if t <= end and t < earliest:
+                earliest, which = t, k
+        return earliest, which
+    earliest, which = NONE, 0
     if behaviour != of.OWN or int(plan[row + _FORMULA + par.OWN_FLAGS]) & 2:
-        found = _ways(plan, f, -way, v_fresh, size, end, a)
+        earliest = _ways(plan, f, -way, v_fresh, size, end, a)
     t = NONE
     if behaviour == of.HYSTERETIC:
         z = node(plan, row, of.Z_NODE, int(plan[at.NODES]))
@@ -168,9 +168,9 @@ def _of_link(
     elif behaviour == of.OWN and int(plan[row + _FORMULA + par.OWN_FLAGS]) & 1:
         relative(plan, f, 0, -side, a)
         t = fall(plan, a, size / plan[at.STIFF_RATE], side_fresh, end)
-    if t <= end and t < found:
-        found, which = t, 1
-    return found, which
+    if t <= end and t < earliest:
+        earliest, which = t, 1
+    return earliest, which
 
 
 @kernel
@@ -194,7 +194,7 @@ def _of_stop(
     a[0] -= gap
     y = beyond(plan, int(plan[at.Y]))
     zeros = _order_of_depth(plan, f, mode, length) if fresh == of.DEPTH_FRESH else 0
-    found, which = _fall_from(plan, a, speeds(plan, f, y) + abs(gap), zeros, end), 0
+    earliest, which = _fall_from(plan, a, speeds(plan, f, y) + abs(gap), zeros, end), 0
     t, piece, turning = NONE, 1, fresh == of.RATE_FRESH
     active = plan[row + of.ACTIVE] != 0.0
     if int(plan[row + of.BEHAVIOUR]) == of.POWER:
@@ -222,9 +222,9 @@ def _of_stop(
             turns = _ways(plan, f, plan[row + of.NAMES + 23], turning, size, end, a)
             if turns < t:
                 t, piece = turns, 1
-    if t <= end and t < found:
-        found, which = t, piece
-    return found, which
+    if t <= end and t < earliest:
+        earliest, which = t, piece
+    return earliest, which
 
 
 @kernel
@@ -247,11 +247,11 @@ def first_of(
     row, a = row_of(plan, f), beyond(plan, int(plan[at.COEFFICIENTS]))
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     if plan[one + at.KIND] == at.LINK:
-        found: tuple[float, int] = _of_link(plan, f, row, mode, size, end, a)
-        return found
+        event: tuple[float, int] = _of_link(plan, f, row, mode, size, end, a)
+        return event
     if plan[one + at.KIND] == at.PUSHING and mode >> f & 1:
-        found = _of_stop(plan, f, row, mode, length, size, end, a)
-        return found
+        event = _of_stop(plan, f, row, mode, length, size, end, a)
+        return event
     if mode >> f & 1 == 0 and plan[int(plan[at.ZEROS]) + f] == 0.0 and _stays_clear(plan, f):
         return NONE, 0
     watched_series(plan, f, mode, a)
