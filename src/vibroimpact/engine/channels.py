@@ -37,7 +37,7 @@ flow keeps there."""
 
 series_buffer = stack(SERIES)
 CURSOR_SIZE = 15
-"""Most numbers of a cursor, by which one mass goes from piece to piece (`pieces.keep_cursor`)."""
+"""Most numbers of a cursor, by which one mass goes from piece to piece (`pieces.write_cursor`)."""
 piece_buffer = stack(OWN + 3 + ORDER + CURSOR_SIZE)
 """Room for them: of one mass three numbers, a series and a cursor (`one_mass.channels`)."""
 

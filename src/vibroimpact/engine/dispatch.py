@@ -10,7 +10,7 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
     begin(plan, motion, length), has_piece(plan, cursor), next_piece(plan, cursor)
-    keep_cursor(plan, cursor, room), kept_cursor(plan, room)  a cursor in memory
+    write_cursor(plan, cursor, buffer), read_cursor(plan, buffer)  a cursor in memory
     bound_window(plan, cursor, before, seen, room)  bounds over a window of pieces
     enclosed(plan, cursor, room)            between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
@@ -76,8 +76,8 @@ stiff_rate = _by_flow("stiff_rate")
 begin = _by_flow("begin")
 has_piece = _by_flow("has_piece")
 next_piece = _by_flow("next_piece")
-keep_cursor = _by_flow("keep_cursor")
-kept_cursor = _by_flow("kept_cursor")
+write_cursor = _by_flow("write_cursor")
+read_cursor = _by_flow("read_cursor")
 bound_window = _by_flow("bound_window")
 enclosed = _by_flow("enclosed")
 expanded = _by_flow("expanded")

@@ -26,9 +26,9 @@ from vibroimpact.engine.dispatch import (
     expanded,
     expanded_force,
     has_piece,
-    keep_cursor,
-    kept_cursor,
+    read_cursor,
     rest_level,
+    write_cursor,
 )
 from vibroimpact.engine.dispatch import next_piece as following
 from vibroimpact.engine.forcing.dispatch import pull_series
@@ -51,7 +51,7 @@ CURSOR = X + ORDER
 def _opened(plan: Vector, cursor: Any, piece: Vector) -> int:
     if not has_piece(plan, cursor):
         return 0
-    keep_cursor(plan, cursor, beyond(piece, CURSOR))
+    write_cursor(plan, cursor, beyond(piece, CURSOR))
     high, piece[SINE], piece[COSINE] = expanded(plan, cursor, beyond(piece, X))
     h = plan[cursor.table + H]
     piece[WIDTH] = high + 0.5
@@ -68,13 +68,13 @@ def first_piece(plan: Vector, before: Vector, ended: Vector, piece: Vector) -> i
 @kernel
 def next_piece(plan: Vector, before: Vector, piece: Vector) -> int:
     """See `flow.next_piece`."""
-    return _opened(plan, following(plan, kept_cursor(plan, beyond(piece, CURSOR))), piece)
+    return _opened(plan, following(plan, read_cursor(plan, beyond(piece, CURSOR))), piece)
 
 
 @kernel
 def _from_middle(plan: Vector, before: Motion, piece: Vector, channel: int, a: Vector) -> None:
     """Write the series of a channel of the mass about the piece's middle, in steps."""
-    cursor, sign = kept_cursor(plan, beyond(piece, CURSOR)), direction(before.mode)
+    cursor, sign = read_cursor(plan, beyond(piece, CURSOR)), direction(before.mode)
     rate = plan[cursor.table + RATE]
     s, c = piece[SINE], piece[COSINE]
     for n in range(ORDER):
@@ -124,7 +124,7 @@ def _of_stop(
             if stop != main:
                 a[0] -= total_gap(plan)
     else:
-        cursor = kept_cursor(plan, beyond(piece, CURSOR))
+        cursor = read_cursor(plan, beyond(piece, CURSOR))
         if not rigid(plan, stop):
             expanded_force(plan, cursor, before.mode, stop, a)
             return
