@@ -18,7 +18,7 @@ from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import STATE, U, V
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import EVENT, STEP, T, copy, load, room, width
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST = 0.6, 1.2 / math.tau, 0.3, 20, 100
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.one_mass import PARTS
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 FORGOTTEN = 20.0
 """What relaxes by more powers of e in a cycle is forgotten: 2e-9 of it is left."""

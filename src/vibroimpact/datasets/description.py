@@ -14,7 +14,7 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
-from vibroimpact.model.rig import System
+from vibroimpact.model.system import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [
@@ -181,7 +181,7 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
 
 def system_parameters(system: System) -> dict[str, Any]:
     """Return an oscillator or an assembly by its kind, for the attributes of a dataset."""
-    return {"assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()}
+    return {system.word: system.model_dump()}
 
 
 def system_from(parameters: Mapping[str, Any]) -> System:

@@ -10,11 +10,12 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.datasets.description import base_at_rest, noted, stop_word
-from vibroimpact.datasets.stops import SIDES, of_stop, plain_values
+from vibroimpact.datasets.stops import of_stop, plain_values
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import Column, sheet, table_of, values_along
 from vibroimpact.model.frequency_text import forcing
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 from vibroimpact.response.plausibility import STIFF

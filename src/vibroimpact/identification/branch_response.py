@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
 
 Array = NDArray[np.float64]

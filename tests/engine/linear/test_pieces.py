@@ -24,7 +24,7 @@ from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 FREQUENCY, PHASE = 0.2, 0.7
 

@@ -32,7 +32,7 @@ from vibroimpact.engine.linear.window_bounds import (
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 FREQUENCY = 0.2
 QUANTITIES = 3

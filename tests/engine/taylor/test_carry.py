@@ -13,7 +13,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, RIGHT_BUMPER, U, V
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 ORDER = [U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR]
 SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])

@@ -11,7 +11,7 @@ from vibroimpact.engine import batch
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 CYCLES = 8
 
