@@ -83,8 +83,10 @@ bench: $(VENV)/.installed-bench
 kernels: $(VENV)/.installed-release
 	$(BIN)/python -m native $(ARGS)
 
-dist: $(VENV)/.installed-release
+# Where emulators are installed, libraries of other systems are compared with this machine's.
+dist: $(VENV)/.installed-release $(VENV)/.installed-test
 	$(BIN)/python -m native release
+	$(BIN)/python -m pytest --full -rs tests/engine/test_other_systems.py
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist .
 	@for platform in $$(cd src/vibroimpact/engine/libraries && ls | sed -n 's/-v[0-9]*\..*//p' | sort -u); do \

@@ -17,11 +17,12 @@ from benchmarks import ours
 from benchmarks.peers.problem import P
 from vibroimpact.engine.jit import OPTIONS
 from vibroimpact.engine.linear.evaluate import node, travel
-from vibroimpact.engine.linear.layout import NODES, PLAN, SIZE, TABLES, H
+from vibroimpact.engine.linear.layout import NODES, PLAN, SIZE, TABLES, H, Row
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Row
+from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.parameters import SIZE as RIG
+from vibroimpact.engine.state import FLIGHT
 
 _Vector = NDArray[np.float64]
 _SETTLED = 200

@@ -9,14 +9,13 @@ import numpy as np
 import vibroimpact as vi
 from benchmarks.peers.problem import P, Problem
 from vibroimpact.engine import batch, flow
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.parameters import rig_vector
-from vibroimpact.engine.state import copy, room, width
+from vibroimpact.engine.state import ONE_MASS, copy, room, width
 from vibroimpact.engine.status import Status
 from vibroimpact.law_numbers import IsolatorNumbers, StopNumbers
 
@@ -68,7 +67,7 @@ def trajectory(
     rig: np.ndarray, amplitude: float, hertz: float, phase: float, periods: int
 ) -> Callable[[], tuple[float, float]]:
     """Return a call of the engine for any rig's vector, from rest."""
-    state = np.zeros(layout.STATE)
+    state = np.zeros(ONE_MASS.width)
     out = np.empty((record.SAMPLE, 0))
     events = np.empty((_MAX_EVENTS + 1, record.EVENT))
 
@@ -89,14 +88,14 @@ def trajectory(
         )
         if outcome:
             raise RuntimeError(Status(outcome).advice)
-        return float(state[layout.U]), float(state[layout.V])
+        return float(state[ONE_MASS.displacement()]), float(state[ONE_MASS.velocity()])
 
     return call
 
 
 def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     """Count what happens in so many forcing periods from rest."""
-    state = np.zeros(layout.STATE)
+    state = np.zeros(ONE_MASS.width)
     room = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
     out = np.empty((record.SAMPLE, 0))
     shaking = (problem.amplitude, frequency(problem), PHASE)
@@ -138,7 +137,7 @@ def _counted(
 
 def ends(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     """Count what ends a stretch in so many forcing periods from rest: turns and yields as well."""
-    state = np.zeros(layout.STATE)
+    state = np.zeros(ONE_MASS.width)
     shaking = (problem.amplitude, frequency(problem), PHASE)
     return int(_counted(rig, *shaking, periods, state))
 

@@ -17,6 +17,10 @@ from pathlib import Path
 AVOIDED = [
     (r"(?i)\btold\b(?!\s+(?:apart|from))", "is reported, prints, states"),
     (
+        r"(?i)\btells?\b(?!(?:\s+[^\s.,;:]+){0,5}?\s+(?:apart|from)\b)",
+        "states, returns, shows, determines",
+    ),
+    (
         r"(?i)\b(?:is|are|was|were|be|been)\s+said\b|\bunless\s+said\b|\bwhat\s+is\s+said\b",
         "is stated, prints",
     ),

@@ -36,10 +36,12 @@ NUMBA = importlib.util.find_spec("numba") is not None
 # Tests call kernels besides the entries; those of an installation without numba call none.
 if NUMBA:
     os.environ["VIBROIMPACT_KERNELS"] = "1"
+from vibroimpact.datasets import description  # noqa: E402
 from vibroimpact.engine import jit, native  # noqa: E402
 
 os.environ.pop("VIBROIMPACT_KERNELS", None)
 
+description.CHECKS_DIMS = True
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
 if NUMBA and native.find_library():
     # Of kernels that a test calls nothing is compiled: they run as Python, unless an entry of a

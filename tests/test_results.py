@@ -1,4 +1,4 @@
-"""Results of public functions have the names and kinds of the vocabulary."""
+"""Results of public functions have the names, dims and kinds of the vocabulary."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import xarray as xr
 
 import arguments
 import vibroimpact as vi
-from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import NAMED_DIMS, VARIABLES
 from vibroimpact.engine.status import Status
 
 NO_DATASET = {
@@ -65,7 +65,9 @@ def test_a_valid_call_is_one_and_returns_a_dataset(name: str, folder: Path) -> N
         assert variable in VARIABLES, variable
         assert "units" in result[variable].attrs, variable
         assert "long_name" in result[variable].attrs, variable
-        assert _kind(result[variable]) == VARIABLES[str(variable)].kind, variable
+        known, dims = VARIABLES[str(variable)], list(result[variable].dims)
+        assert _kind(result[variable]) == known.kind, variable
+        assert dims == [variable] or known.has_dims(dims, NAMED_DIMS), variable
 
 
 def _kind(values: xr.DataArray) -> str:

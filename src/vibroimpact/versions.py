@@ -6,9 +6,12 @@ import platform
 import sys
 from importlib.metadata import PackageNotFoundError, version
 
+from vibroimpact.model.public import public
+
 _PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "xarray", "matplotlib", "h5netcdf", "zarr")
 
 
+@public
 def show_versions() -> None:
     """Print the versions of the package and of those that it uses, the system and the engine.
 

@@ -107,7 +107,7 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
     found = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=16)
     assert len(found.attrs["contacts"]) >= 2
     state = found["final_state"].values
-    assert int(state[5]) == 0
+    assert not state[5:7].any()
     expected = differences(rig, shaken, state, 1e-7)
     np.testing.assert_allclose(
         found["monodromy"].values[:, :2], expected, atol=1e-6 * np.abs(expected).max()
@@ -157,7 +157,7 @@ def test_a_branch_of_orbits(kind: dict) -> None:
         np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-10)
         seen = np.ptp(motion["displacement"].values)
         assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=5e-2)
-        if not int(section[5]):
+        if not section[5:7].any():
             own = np.linalg.eigvals(differences(rig, here, section, 1e-7)[:2])
             found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
             assert abs(max(abs(own)) - max(abs(found))) < 1e-5 * max(abs(own))

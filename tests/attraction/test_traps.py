@@ -11,7 +11,7 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import NO_TRAPS, Stage, Traps, follow, parts
-from vibroimpact.engine.absorption import CENTRE, FORM, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, REACH, form_of, trap_width
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 
@@ -28,7 +28,7 @@ def searched(hertz: float) -> Search:
 
 def inside(trap: np.ndarray, count: int) -> np.ndarray:
     """Random points in an ellipse of u and u̇, its rim among them."""
-    form = trap[FORM:].reshape(5, 5)[:2, :2]
+    form = trap[form_of(5) :].reshape(5, 5)[:2, :2]
     generator = np.random.default_rng(1)
     angles = generator.uniform(0.0, 2.0 * np.pi, count)
     radii = np.where(np.arange(count) % 2, 1.0, np.sqrt(generator.uniform(0.0, 1.0, count)))
@@ -67,7 +67,7 @@ def test_an_ellipse_is_no_smaller_than_it_need_be():
 def test_chaotic_motions_are_held_by_cells():
     search = searched(1.06)
     assert [one.found.period for one in search.known] == [0, 0]
-    assert all(one.traps.shape == (0, TRAP) for one in search.known)
+    assert all(one.traps.shape == (0, trap_width(5)) for one in search.known)
     cells, grid = search.traps.cells, search.traps.grid
     generator = np.random.default_rng(2)
     for number, one in enumerate(search.known):
@@ -130,7 +130,7 @@ def test_a_motion_that_presses_such_a_stop_at_the_section_has_a_trap_too():
     gap = search.stage.oscillator.right.gap
     assert trap[CENTRE] - trap[REACH] > gap
     assert trap[REACH] > 1e-4
-    form = trap[FORM:].reshape(5, 5)
+    form = trap[form_of(5) :].reshape(5, 5)
     kept = np.ix_([0, 1, 2], [0, 1, 2])
     sphere = np.random.default_rng(5).normal(size=(sample(500, 100), 3))
     sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)

@@ -128,7 +128,7 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
         ),
         (
             ("B2-G1-A3", "--vary", "frequency=3Hz:2Hz"),
-            "--vary: frequency: the lower end of the range, 3 Hz",
+            "--vary: frequency: the first value, 3 Hz",
         ),
     ],
 )

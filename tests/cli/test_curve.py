@@ -94,7 +94,7 @@ GAPS = ("--vary", "gap=1mm:20mm")
         (["--vary", "frequency", "--vary", "frequency=1Hz:2Hz"], "'frequency' is given twice"),
         ([*FIRST, "--vary", "gap=1mm:2mm:5"], "--vary: gap: a curve is followed"),
         ([*GAPS, "--vary", "frequency=1Hz"], "--vary: frequency: '1Hz'"),
-        ([*FIRST, "--vary", "gap=20mm:1mm"], "--vary: gap: the lower end of the range, 20 mm"),
+        ([*FIRST, "--vary", "gap=20mm:1mm"], "--vary: gap: the first value, 20 mm"),
         ([*FIRST, "--vary", "gap=a:b"], "--vary: gap: 'a'"),
         ([*FIRST, "--vary", "gap=1Hz:2Hz"], "--vary: gap: '1Hz'"),
         ([*FIRST, "--vary", "gap=10mm:20mm"], "--vary: gap: 10 mm to 20 mm does not contain"),

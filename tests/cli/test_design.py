@@ -173,7 +173,7 @@ def test_sines_best_and_json(run, study):
         (("--vary", "gap=2"), "--vary: gap: '2' is not a range; pass LOW:HIGH"),
         (
             ("--vary", "gap=0.2:0.1"),
-            "--vary: gap: the lower end of the range, 200 mm, is not below the upper end, 100 mm",
+            "--vary: gap: the first value, 200 mm, is not below the second, 100 mm",
         ),
         (("--vary", "gap=1kg:2"), "--vary: gap: '1kg'"),
         (

@@ -103,7 +103,7 @@ def test_ranges(text, expected):
         ),
         (
             ["--vary", "stiffness_ratio=2:1", "--vary", "gap_ratio=0:1"],
-            "--vary: stiffness_ratio: the lower end of the range, 2, is not below the upper end, 1",
+            "--vary: stiffness_ratio: the first value, 2, is not below the second, 1",
         ),
         (["--vary", "stiffness_ratio=0:1", "--vary", "gap_ratio=0:1"], "--vary: stiffness_ratio"),
         (

@@ -32,6 +32,14 @@ def test_a_variable_of_no_registry_is_refused():
         describe(xr.Dataset({"nothing": 1.0}), "made.here", {})
 
 
+def test_dims_of_no_registry_are_refused_in_tests(monkeypatch):
+    data = xr.Dataset({"eta_d": ("event", [1.0])})
+    with pytest.raises(ValueError, match=r"^eta_d: its dims \['event'\] are none of"):
+        describe(data, "made.here", {})
+    monkeypatch.setattr("vibroimpact.datasets.description.CHECKS_DIMS", False)
+    describe(data, "made.here", {})
+
+
 def test_notes_of_the_input_are_an_attribute_where_there_are_any():
     data = describe(xr.Dataset({"eta_d": 1.0}), "made.here", {}, ["unit m/s²", "doubtful"])
     assert data.attrs["notes"] == "unit m/s²\ndoubtful"

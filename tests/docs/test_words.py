@@ -30,6 +30,10 @@ def avoided(tmp_path, monkeypatch):
             "7: 'told'; write: is reported, prints, states",
         ),
         ("One thread: one a thread.", "1: 'one a thread'; write: one per"),
+        (
+            "The name tells its unit, from here on.",
+            "1: 'tells'; write: states, returns, shows, determines",
+        ),
     ],
 )
 def test_a_use_is_found_at_its_line(avoided, text, use):
@@ -37,7 +41,15 @@ def test_a_use_is_found_at_its_line(avoided, text, use):
 
 
 @pytest.mark.parametrize(
-    "text", ["`told`", "```sh\ntold\n```", "there\n  is no gap", "told apart", "no longer"]
+    "text",
+    [
+        "`told`",
+        "```sh\ntold\n```",
+        "there\n  is no gap",
+        "told apart",
+        "Tell a jump from a step",
+        "no longer",
+    ],
 )
 def test_other_text_is_left_alone(avoided, text):
     assert avoided(text) == []

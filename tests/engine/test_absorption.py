@@ -14,7 +14,7 @@ from vibroimpact.attraction.label_states import (
     Traps,
     follow_region,
 )
-from vibroimpact.engine.absorption import CENTRE, FORM, OWNER, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, OWNER, REACH, form_of, trap_width
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.prepared_rig import prepare
@@ -40,9 +40,9 @@ def begun(traps: Traps, cycles: int, stage: Stage = STAGE) -> Followed:
 
 
 def ball(owner: int, centre: np.ndarray, radius: float) -> np.ndarray:
-    row = np.zeros(TRAP)
+    row = np.zeros(trap_width(5))
     row[OWNER], row[REACH], row[CENTRE : CENTRE + 5] = owner, radius, centre
-    row[FORM:] = (np.diag([1.0, 1.0, 0.0, 0.0, 0.0]) / radius**2).ravel()
+    row[form_of(5) :] = (np.diag([1.0, 1.0, 0.0, 0.0, 0.0]) / radius**2).ravel()
     return row
 
 

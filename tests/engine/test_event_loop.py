@@ -15,15 +15,16 @@ from vibroimpact.engine.event_loop import observed
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import STATE, U, V
-from vibroimpact.engine.observers import record
-from vibroimpact.engine.state import EVENT, STEP, T, copy, load, room, width
+from vibroimpact.engine.observers.record import DETACHMENT
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.state import EVENT, ONE_MASS, STEP, T, copy, load, room, width
 from vibroimpact.response.engine_system import engine_rig
 
 AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST = 0.6, 1.2 / math.tau, 0.3, 20, 100
 
 
 CONTACTS, DETACHMENTS, TIME, GAPS, LAST_U, LAST_V = range(6)
+U, V = ONE_MASS.displacement(), ONE_MASS.velocity()
 
 
 @kernel
@@ -62,15 +63,15 @@ def test_every_event_is_seen_once_and_has_no_influence(stop: vi.Bumper | vi.Rigi
         vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop), vi.Harmonic(1.0, 1.0))
     )
     out = np.zeros(6)
-    events = look(rig, np.zeros(STATE), AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST, out)
+    events = look(rig, np.zeros(ONE_MASS.width), AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST, out)
     contacts, detachments, time, gaps = out[:4]
 
-    state, written = np.zeros(STATE), np.empty(((CYCLES + 1) * MOST, record.EVENT))
+    state, written = np.zeros(ONE_MASS.width), np.empty(((CYCLES + 1) * MOST, record.EVENT))
     _, count, outcome = batch.trajectory(
         rig, AMPLITUDE, FREQUENCY, PHASE, state, 0.0, float(CYCLES), 0, MOST, np.empty((0, 6)),
         written,
     )  # fmt: skip
-    ends = written[:count, record.E_KIND] == record.DETACHMENT
+    ends = written[:count, record.E_KIND] == DETACHMENT
     assert outcome == 0
     assert events == count > CYCLES
     assert (contacts, detachments) == (count - ends.sum(), ends.sum())

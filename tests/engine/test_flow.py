@@ -7,18 +7,20 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine import event_loop, flow, one_mass
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.flow_tables import GROUPS
 from vibroimpact.engine.memory import beyond, pointer
-from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
-from vibroimpact.engine.observers import record as written
-from vibroimpact.engine.observers.extremes import A_MOST, T_MOST, U_MOST
+from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
+from vibroimpact.engine.one_mass import record as written
+from vibroimpact.engine.one_mass import table as one_mass
+from vibroimpact.engine.one_mass.extremes import A_MOST, T_MOST, U_MOST
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import (
     FIRST,
+    ONE_MASS,
     copy,
     measures_room,
     notes_room,
@@ -63,7 +65,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     period = 1.0 / frequency
     state, notes, found = room(), measures_room(), notes_room()
-    kept, q, w = written.note_room(), np.zeros(25), np.zeros(25)
+    kept, q, w = note_room(), np.zeros(25), np.zeros(25)
     for which in range(7):
         copy(pointer(start), state, width(plan))
         wind(plan, state, S, C)
@@ -75,12 +77,12 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             low_high[0], low_high[1] = notes[0], notes[1]
             low_high[2], low_high[3] = notes[2], notes[3]
         elif which == RECORDED:
-            written.start_notes(kept, samples.shape[1], 0, period / SAMPLES, SAMPLES, 0, 0, MOST, 0)
+            start_notes(kept, samples.shape[1], 0, period / SAMPLES, SAMPLES, 0, 0, MOST, 0)
             count = event_loop.record(
                 plan, state, S, C, period, MOST, kept, pointer(samples), pointer(events)
             )
             flow.write(plan, state, pointer(samples), samples.shape[1], SAMPLES)
-            low_high[8] = kept[written.WRITTEN]
+            low_high[8] = kept[WRITTEN]
         elif which == DEMAND:
             flow.start_demand(plan, found, 0)
             count = event_loop.demand(plan, state, S, C, period, MOST, found)
@@ -195,7 +197,7 @@ def freely(given, rig, amplitude, frequency, start, out):
 
 def test_free_flight_in_closed_form() -> None:
     out = np.zeros(5)
-    start = np.zeros(STATE)
+    start = np.zeros(ONE_MASS.width)
     omega = math.tau * FREQUENCY
     response = -0.1 / (4.0 - omega**2 + 0.1j * omega)
     assert freely(RIGS["Apart"], 0.1, FREQUENCY, start, out) == 1

@@ -10,7 +10,6 @@ import pytest
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.motion import (
     BOTH,
-    FLIGHT,
     LEFT,
     RELEASED,
     RIGHT,
@@ -18,11 +17,12 @@ from vibroimpact.engine.motion import (
     STATE,
     Motion,
     coordinates,
-    mirror_image,
     mirrored,
     pack,
     unpacked,
 )
+from vibroimpact.engine.one_mass.table import mirror_image
+from vibroimpact.engine.state import FLIGHT
 
 CLOCK = (0.6, 0.8)
 MODES = [FLIGHT, RIGHT, LEFT, BOTH]

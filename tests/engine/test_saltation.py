@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import saltation
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
 
 SMALL = mpmath.mpf(10) ** -12
 """Of a disturbance, of the event's size: the second order is 1e-12 of the first."""

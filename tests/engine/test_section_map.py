@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, unpacked
-from vibroimpact.engine.one_mass import place
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, unpacked
+from vibroimpact.engine.one_mass.table import place
 from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw, StopNumbers
 
 DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import hold, native
-from vibroimpact.engine import motion as layout
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.engine_layout import WASM
 from vibroimpact.explorer.offline_facts import facts, table
@@ -174,14 +174,14 @@ def test_sweeps_and_motions_are_those_of_python(run):
             [hold.U_LEAST, hold.U_MOST],
             [hold.A_LEAST, hold.A_MOST],
             [hold.T_LEAST, hold.T_MOST],
-            [hold.FORCE_RIGHT, hold.FORCE_LEFT],
+            [hold.FORCE, hold.FORCE + 1],
         ):
             one, other = expected[same][:, columns], here[same][:, columns]
             finite = np.isfinite(one) & np.isfinite(other)
             size = np.abs(np.where(finite, one, 0.0)).max(axis=1, keepdims=True)
             away = np.abs(np.subtract(one, other, where=finite, out=np.zeros_like(one)))
             assert (away <= EXACT * size).all()
-        parts = [layout.U, layout.V]
+        parts = [ONE_MASS.displacement(), ONE_MASS.velocity()]
         size = np.abs(reached[same][:, parts]).max(axis=0, initial=0.0)
         assert (np.abs(reached - there)[same][:, parts] <= NEAR * size).all()
         compared += int(same.sum())

@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.facts import largest, motions, scenario, sweeps
-from vibroimpact.facts.tables import Column, as_text, sheet, table_of
+from vibroimpact.facts.tables import Column, Row, as_text, sheet, sheet_of, table_of
 from vibroimpact.response.resonance import features
 from vibroimpact.scenarios.scenario import Scenario
 
@@ -99,6 +100,34 @@ def test_tables_as_text_have_no_marks_of_a_terminal():
     assert lines[0].strip() == "Jumps"
     assert "\x1b" not in "".join(lines)
     assert all(line == line.rstrip() for line in lines)
+
+
+def test_a_sheet_of_declared_rows():
+    """Of both sides, in one unit that fits all values of a row, unless others choose it."""
+    data = xr.Dataset(
+        {"peak_force": ("stop", [2e3]), "displacement_min": -1e-3, "displacement_max": 2.0},
+        {"stop": ["left"]},
+    )
+    ends = ("displacement_min", "displacement_max")
+    rows = (
+        Row("force", "peak_force", words="{} at most", remark=lambda whole: f"of {whole}"),
+        Row("range", ends, 3),
+        Row("lowest", ends[0], like=ends),
+        Row("absent", "peak_acceleration", shown=lambda whole: whole == "another"),
+        Row("own", lambda whole: whole, of=("eccentricity",)),
+    )
+    assert [line.rstrip() for line in as_text(sheet_of(data, rows, "one")).splitlines()] == [
+        "force     0 kN right, 2 kN left at most    of one",
+        "range     -0.001 to 2 m",
+        "lowest    -0.001 m",
+        "own       one",
+    ]
+    assert [row.variables for row in rows[1:]] == [
+        ends,
+        ends[:1],
+        ("peak_acceleration",),
+        ("eccentricity",),
+    ]
 
 
 def test_another_number_of_a_motion_is_written_without_an_entry():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.model.parameter_ranges import read_ranges, read_values
+from vibroimpact.model.parameter_ranges import read_range, read_ranges, read_values
 
 RIG = vi.laboratory.case("B2-G1-A3").rig
 WALL = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.RigidStop(0.5, 0.1))
@@ -78,6 +78,15 @@ def test_a_range_keeps_the_bounds_of_its_parameter():
         read_ranges({"restitution": (0.5, 1.2)}, WALL)
     with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[0\]: -0\.1"):
         read_ranges({"restitution": (-0.1, 0.5)}, WALL)
+
+
+def test_a_range_begins_at_0_only_if_its_parameter_may_be_0():
+    assert read_ranges({"gap": (0.0, 0.1)}, RIG)[0].ends == (0.0, 0.1)
+    with pytest.raises(vi.InputError, match=r"^vary\['mass'\]\[0\]: 0 is not greater than 0"):
+        read_ranges({"mass": (0, 1)}, RIG)
+    (one,) = read_ranges({"gap": (0.0, 0.1)}, RIG)
+    with pytest.raises(vi.InputError, match=r"^gap\[0\]: 0 is not greater than 0"):
+        read_range(one.parameter, (0, "1 mm"), "gap", positive=True)
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,9 @@ from collections import Counter
 import numpy as np
 
 from vibroimpact.engine import batch
-from vibroimpact.engine import motion as layout
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 
 CYCLES, SAMPLES, MAX_EVENTS = 20, 16, 1000
@@ -49,7 +49,7 @@ def random_rig(rng: np.random.Generator) -> dict[str, object]:
 def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     """Run one rig from rest; say what is wrong with its motion."""
     right, left = case["right"], case["left"]
-    state = np.zeros(layout.STATE)
+    state = np.zeros(ONE_MASS.width)
     out = np.full((record.SAMPLE, CYCLES * SAMPLES + 1), np.nan)
     events = np.empty((MAX_EVENTS * (CYCLES + 1) + 1, record.EVENT))
     _, _, outcome = batch.trajectory(
@@ -68,14 +68,14 @@ def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     if outcome != Status.DONE:
         return Status(outcome), []
     found = []
-    if not (np.isfinite(out[: record.RIGHT_CLEARANCE]).all() and np.isfinite(state).all()):
+    if not (np.isfinite(out[: record.CLEARANCE]).all() and np.isfinite(state).all()):
         found.append("not finite")
-    u, face_r, face_l = (out[c] for c in (record.DISPLACEMENT, record.RIGHT_FACE, record.LEFT_FACE))
+    u, (depth_r, depth_l) = out[record.DISPLACEMENT], out[record.DEFORMATION :][: record.STOPS]
     scale = np.abs(u).max()
-    for bumper, inside in ((right, u - face_r), (left, face_l - u)):
+    for bumper, inside in ((right, u - depth_r), (left, -depth_l - u)):
         if bumper and (inside - bumper[2]).max() > 1e-13 * max(scale, bumper[2]):
             found.append(f"penetration {(inside - bumper[2]).max() / scale:.1e}")
-    if face_r.min() < -1e-13 * scale or face_l.max() > 1e-13 * scale:
+    if min(depth_r.min(), depth_l.min()) < -1e-13 * scale:
         found.append("a bumper was pulled")
     return Status(outcome), found
 

@@ -330,6 +330,10 @@ def test_bodies_that_part_within_a_rounding_do_not_meet() -> None:
         pytest.param(61, 40, id="a drag between bodies that stops hold together"),
         pytest.param(72, 3363, id="a bumper whose body another stop holds by a third"),
         pytest.param(62, 258, id="a drag of two equal velocities, whose difference is rounding"),
+        pytest.param(82, 5063, id="a curved stop that rounding of the equilibrium had opened"),
+        pytest.param(82, 3220, id="a rest at a rigid stop that the same rounding had opened"),
+        pytest.param(82, 3064, id="friction that holds its largest force but for rounding"),
+        pytest.param(82, 5503, id="a series whose last coefficients are all but infinite"),
     ],
 )
 def test_random_assemblies_that_were_found_to_fail(seed: int, which: int) -> None:

@@ -11,9 +11,9 @@ import pytest
 import vibroimpact as vi
 from engine.yielding.rigs import followed, random_rig, started, vectors
 from samples import sample
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine.flow_dispatch import flow_of
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.state import ONE_MASS
 
 SMALL = 1e-9
 """By which amplitude and phase are changed, to see how sensitive a motion is."""
@@ -45,7 +45,7 @@ def compared(count: int, seed: int, several: bool) -> tuple[int, list[str]]:
         scale = np.array([[size], [speed], [size]])
 
         def rows(samples: np.ndarray, state: np.ndarray, scale: np.ndarray = scale) -> np.ndarray:
-            memory = np.full(samples.shape[1], state[layout.ISOLATOR])
+            memory = np.full(samples.shape[1], state[ONE_MASS.memory()])
             columns = samples[record.DISPLACEMENT], samples[record.VELOCITY], memory
             return np.array(columns) / scale
 

@@ -48,8 +48,21 @@ def sides(data: xr.Dataset) -> NDArray[np.int64]:
     return np.where(data["event_stop"].values == "right", 1, -1)
 
 
+def signed_parts(components: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Displacement, velocity and both deformations, of a dataset's components (last axis)."""
+    return components[..., :4] * [1.0, 1.0, 1.0, -1.0]
+
+
+def mode_of(components: NDArray[np.float64]) -> float:
+    """The phase of a dataset's state, as the engine counts."""
+    return float(components[5] + 2.0 * components[6])
+
+
 def start(components: NDArray[np.float64], **changes: float) -> vi.State:
-    """The state of the first components (u, v, u_R, u_L, phase, contact), which may be fewer."""
-    u, v, right, left, *others = (float(one) for one in components[:6])
-    values = dict(zip(("phase", "contact"), others, strict=False)) | changes
-    return vi.State(u, v, {"right": right, "left": 0.0 - left}, **values)
+    """The state of the first components of a dataset, which may be fewer, with other values."""
+    u, v, right, left, *others = (float(one) for one in components[:7])
+    values: dict[str, float] = dict(zip(("phase",), others[:1], strict=False))
+    if len(others) == 3:
+        touches = {(1.0, 0.0): 1, (0.0, 1.0): -1, (1.0, 1.0): 2, (0.0, 0.0): 0}
+        values["contact"] = touches[others[1], others[2]]
+    return vi.State(u, v, {"right": right, "left": left}, **(values | changes))

@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 import vibroimpact as vi
 from engine.assembly.exact import Exact
 from vibroimpact.engine.assembly.plan import GROUND, Forcing, Stop, base_motion, record_motion
+from vibroimpact.response.history_variables import busiest_by_mass
 
 SPRING = vi.Isolator(26_290.0, 1_140.0)
 BUMPER = vi.Bumper(510e3, 737.66, 7.5e-3)
@@ -463,6 +464,35 @@ def test_the_rule_for_simultaneous_impacts_is_reported() -> None:
         motion = vi.simulate(vi.Rig(balls), 1, start, frequency=1.0)
     assert motion["simultaneous_impacts"] >= 1
     assert "their order is that of the stops" in motion.attrs["notes"]
+
+
+def test_the_stop_that_causes_too_many_events_is_named() -> None:
+    pressed = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        links={name: vi.Link("ground", name, vi.Isolator(1.0, 0.1)) for name in "ab"},
+        stops={
+            "calm": vi.Link("ground", "a", vi.RigidStop(1.0, 2.0)),
+            "floor": vi.Link("ground", "b", vi.RigidStop(1.0, 0.0)),
+        },
+        forces={"b": -3.0},
+    )
+    start = vi.State({"b": 1e-7})
+    cause = (
+        r"events are at floor; with stops\.floor\.restitution = 1, bodies that are pushed together "
+        "bounce without end: use a smaller value$"
+    )
+    with pytest.warns(RuntimeWarning, match=cause):
+        vi.simulate(vi.Rig(pressed), 20, start, frequency=1.0, max_events=200)
+
+
+def test_the_link_that_causes_too_many_steps_is_named() -> None:
+    blunt = vi.Assembly(
+        {"a": 1.0},
+        links={"x": vi.Link("ground", "a", vi.Isolator(1.0, 1.0, damping_exponent=0.5))},
+        stops={"far": vi.Link("ground", "a", vi.RigidStop(1.0, 90.0))},
+    )
+    rows = np.zeros((0, 9))
+    assert busiest_by_mass(rows, 0, blunt) == "with 0 events, check links.x.damping_exponent = 0.5"
 
 
 def test_a_motion_that_is_given_up_ends_there() -> None:

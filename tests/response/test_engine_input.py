@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.response.engine_input import as_state, components, engine_state
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.1, 0.4)
@@ -62,3 +64,28 @@ def test_starts_on_absent_bumpers() -> None:
     with pytest.raises(vi.InputError, match=told):
         vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(contact=1))
     vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(deformation={"right": 0.0}))
+
+
+@pytest.mark.parametrize(("pressed", "force"), [("left", -2.0), ("right", 2.0)])
+def test_the_state_of_a_dataset_is_that_of_its_last_sample(pressed: str, force: float) -> None:
+    """Of each stop by its name: how far it is compressed, and whether it is touched."""
+    rig = vi.Rig(
+        vi.Oscillator(
+            1.0, vi.Isolator(1.0, 0.1), vi.Bumper(9.0, 2.0, 0.1), vi.Bumper(8.0, 2.0, 0.2), force
+        ),
+        vi.Harmonic(0.5, 0.3),
+    )
+    deepest = 0.0
+    for cycles in (3.2, 3.4, 3.7, 5.9):
+        motion = vi.simulate(rig, cycles, samples=10)
+        for stop in ("right", "left"):
+            for name in ("deformation", "touching"):
+                last = motion[name].sel(stop=stop).values[-1]
+                state = motion["final_state"].sel(component=f"{name}.{stop}")
+                assert float(state) == last >= 0.0
+        deepest = max(deepest, float(motion["deformation"].sel(stop=pressed).values[-1]))
+        again = as_state(motion["final_state"])
+        vector = engine_state(rig.system, again)
+        phase = float(motion["final_state"].sel(component="phase"))
+        np.testing.assert_array_equal(components(vector, phase), motion["final_state"])
+    assert deepest > 0.01

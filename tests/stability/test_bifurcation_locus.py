@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from reference.paper_signs import mode_of, signed_parts
 from samples import sample
 from vibroimpact.engine.section_map import RESIDUAL
 from vibroimpact.stability.fixed_points import Section, evaluated, seen_at
@@ -18,7 +19,6 @@ from vibroimpact.stability.two_parameters import plane
 CASE = vi.laboratory.case("B2-G1-A3")
 TURN = 2.0 * math.pi
 LOW, HIGH = (0.2 / TURN, 0.05), (6.0 / TURN, 3.0)
-MODES = {0: 0.0, 1: 1.0, -1: 2.0}
 
 
 def beside_the_cusp(other: str, low: float, high: float):
@@ -76,12 +76,12 @@ def highest_fold(cubic: float, damping: float, stops: int):
 
 def seen_by(oscillator: vi.Oscillator, shaken: vi.Harmonic, section, period: int = 1):
     """What the rig itself makes of a listed section."""
-    *state, phase, contact, memory = section.values
-    shaken = shaken.replace(phase=phase)
+    state = section.values
+    shaken = shaken.replace(phase=float(state[4]))
     scale = np.array([1.0, shaken.angular_frequency, 1.0, 1.0, 1.0, 1.0])
-    point = np.array([*state, memory, shaken.frequency])
+    point = np.array([*signed_parts(state), state[-1], shaken.frequency])
     one = Section(family(vi.Rig(oscillator, shaken), "frequency"), period, False, scale)
-    status, orbit, _ = evaluated(one, point, MODES[int(contact)])
+    status, orbit, _ = evaluated(one, point, mode_of(state))
     assert int(status) == 0
     return orbit
 
@@ -215,8 +215,8 @@ def test_an_orbit_elsewhere_on_the_plane_is_seen_as_it_moves(pair):
     there = over.other.vary(over.family.parameter.vary(vi.Rig(oscillator, shaken), p), q)
     start = vi.steady(there)["final_state"].values
     section = Section(over.at_vectors(q), 1, False, np.ones(6))
-    point = np.array([*start[:4], start[6], p])
-    status, orbit, _ = evaluated(section, point, MODES[int(start[5])])
+    point = np.array([*signed_parts(start), start[-1], p])
+    status, orbit, _ = evaluated(section, point, mode_of(start))
     assert int(status) == 0
     seen, _ = seen_at(orbit, 1.3)
     expected = vi.simulate(there, 1.3 / TURN, vi.State(start[0], start[1]), samples=0)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from reference.paper_signs import signed_parts
 from vibroimpact.engine.status import Status
 from vibroimpact.stability import defining_system
 from vibroimpact.stability.defining_system import Defining, solve
@@ -26,7 +27,7 @@ def fold():
     row = int(np.flatnonzero(data["bifurcation_kind"].values == "fold")[-1])
     one = data.isel(bifurcation=row)
     state = one["bifurcation_section"].values
-    point = np.array([*state[:4], state[6], float(one["bifurcation_value"])])
+    point = np.array([*signed_parts(state), state[-1], float(one["bifurcation_value"])])
     over = plane(vi.Rig(CASE.oscillator, SHAKEN), ("frequency", "gap"))
     scale = np.append(scales(over.family, (1.0, 4.0), point), 0.02)
     mirror = bool(int(one["bifurcation_antisymmetric"]))

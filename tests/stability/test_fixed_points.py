@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions
+from reference.paper_signs import mode_of, signed_parts
 from vibroimpact.stability.fixed_points import Section, corrected, evaluated
 from vibroimpact.stability.parameter_family import family
 
@@ -23,8 +24,8 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
     size = max(abs(settled[0]), abs(settled[1]) / shaken.angular_frequency, 1e-12)
     scale = np.array([size, size * shaken.angular_frequency, size, size, size, shaken.frequency])
     section = Section(fam, 1, False, scale)
-    point = np.array([*settled[:4], 0.0, shaken.frequency])
-    mode = {1: 1.0, -1: 2.0}.get(int(settled[5]), 0.0)
+    point = np.array([*signed_parts(settled), 0.0, shaken.frequency])
+    mode = mode_of(settled)
     status, here, _ = evaluated(section, point, mode)
     assume(int(status) == 0)
     for component in (0, 1):
@@ -53,7 +54,7 @@ def test_the_half_cycle_map_squared_is_the_map():
     case = vi.laboratory.case("B2-G1-A3")
     fam = family(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3)), "frequency")
     settled = vi.steady(vi.Rig(case.oscillator, fam.excitation))["final_state"].values
-    point = np.array([*settled[:4], 0.0, 1.3])
+    point = np.array([*signed_parts(settled), 0.0, 1.3])
     scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 7.5e-3, 1.0])
     halves = [corrected(Section(fam, 1, mirror, scale), point, 0.0) for mirror in (True, False)]
     assert all(int(status) == 0 for status, _ in halves)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.state import MODE, ONE_MASS
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.engine_system import engine_rig
@@ -36,29 +36,29 @@ def test_a_state_that_can_be_stays_as_it_is():
 
 def test_a_narrower_gap_presses_the_bumper():
     state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 2e-3)), SHAKEN), pressing(5e-3))
-    assert state[layout.RIGHT_BUMPER] == pytest.approx(3e-3)
+    assert state[ONE_MASS.deformation(0)] == pytest.approx(3e-3)
 
 
 def test_a_wider_gap_leaves_the_bumper_relaxing():
     state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 20e-3)), SHAKEN), pressing(9e-3))
-    assert state[layout.MODE] == 0
-    assert state[layout.RIGHT_BUMPER] == pytest.approx(1.5e-3)
+    assert state[MODE] == 0
+    assert state[ONE_MASS.deformation(0)] == pytest.approx(1.5e-3)
     state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 0.0, 20e-3)), SHAKEN), pressing(9e-3))
-    assert state[layout.RIGHT_BUMPER] == 0.0
+    assert state[ONE_MASS.deformation(0)] == 0.0
 
 
 def test_a_wall_is_not_passed():
     walls = rig_with(vi.RigidStop(0.5, 4e-3), vi.RigidStop(0.5, 3e-3))
-    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(9e-3))[layout.U] == 4e-3
-    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(-9e-3))[layout.U] == -3e-3
+    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(9e-3))[ONE_MASS.displacement()] == 4e-3
+    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(-9e-3))[ONE_MASS.displacement()] == -3e-3
 
 
 def test_an_isolator_remembers_no_more_than_it_can():
     rig = rig_with(None, None, vi.BilinearIsolator(5e4, 2e4, 100.0, 100.0))
-    state = np.zeros(layout.STATE)
-    state[layout.ISOLATOR] = -1.0
+    state = np.zeros(ONE_MASS.width)
+    state[ONE_MASS.memory()] = -1.0
     most = engine_rig(vi.Rig(rig, SHAKEN))[par.YIELD]
-    assert nearest_state(vi.Rig(rig, SHAKEN), state)[layout.ISOLATOR] == -most
+    assert nearest_state(vi.Rig(rig, SHAKEN), state)[ONE_MASS.memory()] == -most
 
 
 def test_frequencies_in_steps_are_a_sweep():
@@ -71,6 +71,7 @@ def test_frequencies_in_steps_are_a_sweep():
     stepped(every, None, Settling(), held.append, np.zeros(2, dtype=np.int64))
     swept = vi.sweep(CASE, grid, "forward", phase=0.3).isel(direction=0)
     np.testing.assert_array_equal(
-        [one.found.state[layout.U] for one in held], swept["section"].sel(component="displacement")
+        [one.found.state[ONE_MASS.displacement()] for one in held],
+        swept["section"].sel(component="displacement"),
     )
     np.testing.assert_array_equal([one.found.cycles for one in held], swept["cycles"])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.engine.motion import mirror_image
+from vibroimpact.engine.one_mass.table import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.stability.settled_motion import approach, later, reach, state_distance

@@ -18,10 +18,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.label_states import Stage, images
 from vibroimpact.attraction.section_coordinates import met, remembered
-from vibroimpact.engine.absorption import CENTRE, FORM, OWNER, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, OWNER, REACH, form_of, trap_width
+from vibroimpact.engine.state import ONE_MASS
 
 _Array = NDArray[np.float64]
 
+_TRAP = trap_width(ONE_MASS.total)
 _SMALLEST = 1e-6
 """Of the motion's size: the first radius; where P is not linear to so near, no trap is made."""
 _GROWTH = 1.15
@@ -56,11 +58,11 @@ def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
 
     Returns
     -------
-    ndarray, shape (traps, TRAP)
+    ndarray, shape (traps, absorption.trap_width(parts))
     """
     parts = remembered(stage)
     if (points[:, 2:4] > 0.0)[:, parts[2:4]].any():
-        return np.empty((0, TRAP))  # what is pressed at the section has no deformation of its own
+        return np.empty((0, _TRAP))  # what is pressed at the section has no deformation of its own
     omega = stage.excitation.angular_frequency
     rows = []
     for point in points:
@@ -77,7 +79,7 @@ def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
         )
         if row is not None:
             rows.append(row)
-    return np.array(rows).reshape(-1, TRAP)
+    return np.array(rows).reshape(-1, _TRAP)
 
 
 def _depth(stage: Stage, u: float, side: int) -> float:
@@ -127,11 +129,12 @@ def _ellipsoid(
         held, radius = radius, radius * _GROWTH
     if not held:
         return None
-    row = np.zeros(TRAP)
-    row[OWNER], row[CENTRE : CENTRE + 5] = owner, point
-    metric = np.zeros((5, 5))
+    parts = len(point)
+    row = np.zeros(_TRAP)
+    row[OWNER], row[CENTRE : form_of(parts)] = owner, point
+    metric = np.zeros((parts, parts))
     metric[np.ix_(kept, kept)] = form / held**2 / np.outer(unit, unit)
-    row[FORM:] = metric.ravel()
+    row[form_of(parts) :] = metric.ravel()
     row[REACH] = held * unit[0] * reach[0] * (1.0 + 1e-12)
     return row
 

@@ -106,7 +106,7 @@ def _points(found: Settled, stage: Stage) -> _Array | None:
         return points
     passed, state = [], found.state
     for _ in range(found.period):
-        passed.append(state[[*PLACES]])
+        passed.append(state[PLACES])
         status, state = later(found, state, 1.0, stage.max_events)
         if status is not Status.DONE:
             return None

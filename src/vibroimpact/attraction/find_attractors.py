@@ -22,8 +22,8 @@ from vibroimpact.attraction.absorbing_cells import Cells, cells_around, closed
 from vibroimpact.attraction.attractors import Attractor, attractor
 from vibroimpact.attraction.label_states import NO_TRAPS, Points, Stage, Traps, follow
 from vibroimpact.attraction.section_coordinates import has_no_memory
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine.absorption import GRID, LOW_U, LOW_V, STEP_U, STEP_V
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
 from vibroimpact.stability.equivalence import ALIKE, distance, same
@@ -162,7 +162,7 @@ class Search:
             for row in seen:
                 went = follow(self.stage, None, now, NO_TRAPS, 1, self.threads)
                 going, now = going[went.outcome == Status.NOT_SETTLED], went.states
-                row[going] = now[:, layout.U]
+                row[going] = now[:, ONE_MASS.displacement()]
             states = states.copy()
             states[going] = now
             seen.sort(axis=0)
@@ -204,7 +204,7 @@ class Search:
     def _one_motion(self, cells: Cells, mask: NDArray[np.bool_], number: int) -> bool:
         """Whether all that begins in closed cells ends as one motion, as far as samples show."""
         rows, columns = np.nonzero(mask)
-        centres = np.zeros((len(rows), 5))
+        centres = np.zeros((len(rows), ONE_MASS.total))
         centres[:, :2] = cells.corner + cells.side * (np.column_stack([columns, rows]) + 0.5)
         went = follow(self.stage, centres, None, self.traps, _SETTLED, self.threads)
         if not (went.outcome == Status.NOT_SETTLED).all():
@@ -215,6 +215,6 @@ class Search:
             states = went.states
             if len(states) < len(centres):
                 return False
-            seen.append(states[:, layout.U])
+            seen.append(states[:, ONE_MASS.displacement()])
         theirs = np.sort(np.concatenate(seen))
         return distance(self.known[number].visited, theirs) <= ALIKE

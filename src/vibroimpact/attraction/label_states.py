@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.state_grid import Lattice
 from vibroimpact.engine import absorption
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.rig import Rig
@@ -60,7 +60,9 @@ class Traps(NamedTuple):
 
 
 NO_TRAPS = Traps(
-    np.empty((0, absorption.TRAP)), np.empty((0, 0), dtype=np.int64), np.zeros(absorption.GRID)
+    np.empty((0, absorption.trap_width(ONE_MASS.total))),
+    np.empty((0, 0), dtype=np.int64),
+    np.zeros(absorption.GRID),
 )
 
 
@@ -93,7 +95,9 @@ def follow_region(region: Region, tally: Tally) -> Followed:
     stage, points, states, traps, cycles = region
     begun = len(points) > 0
     points = np.ascontiguousarray(points)
-    states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
+    states = (
+        np.zeros((len(points), ONE_MASS.width)) if begun else np.ascontiguousarray(states).copy()
+    )
     results = np.zeros((len(states), absorption.RESULT), dtype=np.int64)
     absorption.caught(
         engine_rig(stage.rig),
@@ -134,12 +138,12 @@ def follow(
     points, states
         Where the motions begin, or where they go on: one of the two is None.
     """
-    begun: Points = np.empty((0, 5)) if points is None else points
-    held = np.empty((0, layout.STATE)) if states is None else states
+    begun: Points = np.empty((0, ONE_MASS.total)) if points is None else points
+    held = np.empty((0, ONE_MASS.width)) if states is None else states
     number = max(len(begun), len(held))
     if not number:
         none = np.empty(0, dtype=np.int8)
-        return Followed(np.empty((0, layout.STATE)), none, none.astype(np.int32), none)
+        return Followed(np.empty((0, ONE_MASS.width)), none, none.astype(np.int32), none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     absorption.caught.prepare(engine_rig(stage.rig))
@@ -165,8 +169,10 @@ def images(
 
 def parts(states: _Array) -> _Array:
     """u, u̇, u_R, u_L, z of states of the engine."""
-    return states[:, [*PLACES]]
+    return states[:, PLACES]
 
 
-PLACES = (layout.U, layout.V, layout.RIGHT_BUMPER, layout.LEFT_BUMPER, layout.ISOLATOR)
+PLACES = [*range(ONE_MASS.first, ONE_MASS.age)]
 """Where u, u̇, u_R, u_L and z stand in a state of the engine."""
+IN_PLANE = [ONE_MASS.displacement(), ONE_MASS.velocity()]
+"""Where u and u̇ do."""

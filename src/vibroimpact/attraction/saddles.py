@@ -14,11 +14,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.label_states import IN_PLANE, NO_TRAPS, Stage, follow
 from vibroimpact.attraction.section_coordinates import met
 from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.attraction.state_window import Window
-from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.engine_input import state_from
@@ -237,7 +236,7 @@ def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
         went = follow(stage, None, went.states, NO_TRAPS, 1)
     if not states:
         return None
-    way = np.array(states)[:, [layout.U, layout.V]] / span
+    way = np.array(states)[:, IN_PLANE] / span
     fam = family(stage.rig, "frequency")
     closest = {
         period: np.linalg.norm(way[period:] - way[:-period], axis=1)
@@ -250,7 +249,7 @@ def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
             orbit = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
         except InputError:
             continue
-        near = np.linalg.norm((orbit.point[:2] - states[at][[layout.U, layout.V]]) / span) < 0.02
+        near = np.linalg.norm((orbit.point[:2] - states[at][IN_PLANE]) / span) < 0.02
         if near and not orbit.stable:
             return orbit
     return None

@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.one_mass import PARTS
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.response.engine_system import engine_rig
+
+_PARTS = ONE_MASS.of_point
 
 FORGOTTEN = 20.0
 """What relaxes by more powers of e in a cycle is forgotten: 2e-9 of it is left."""
@@ -17,12 +19,13 @@ FORGOTTEN = 20.0
 def remembered(stage: Stage) -> NDArray[np.bool_]:
     """Which of u, u̇, u_R, u_L and z a motion remembers from one section to the next."""
     rig = engine_rig(stage.rig)
-    parts = np.zeros(PARTS, dtype=bool)
+    parts = np.zeros(_PARTS.total, dtype=bool)
     parts[:2] = True
-    for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
+    for stop in range(_PARTS.stops):
+        at = par.stop_at(stop)
         rests = rig[at + par.RATE] < FORGOTTEN * stage.excitation.frequency
-        parts[2 + i] = rig[at + par.KIND] == par.KELVIN_VOIGT and rests
-    parts[4] = rig[par.HYSTERETIC] != 0.0
+        parts[_PARTS.deformation(stop)] = rig[at + par.KIND] == par.KELVIN_VOIGT and rests
+    parts[_PARTS.memory()] = rig[par.HYSTERETIC] != 0.0
     return parts
 
 
@@ -33,10 +36,13 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     others keep their deformation.
     """
     rig = engine_rig(stage.rig)
-    parts = np.zeros(PARTS, dtype=bool)
-    for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
+    parts = np.zeros(_PARTS.total, dtype=bool)
+    for stop in range(_PARTS.stops):
+        at = par.stop_at(stop)
         curved = rig[at + par.KIND] in par.CURVED_STOPS
-        parts[2 + i] = curved and rig[at + par.DISSIPATION] < 0.0 and point[2 + i] != 0.0
+        parts[_PARTS.deformation(stop)] = (
+            curved and rig[at + par.DISSIPATION] < 0.0 and point[_PARTS.deformation(stop)] != 0.0
+        )
     return parts
 
 

@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.vary import Vary, read_range
+from vibroimpact.cli.vary import Vary, read_vary_text
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -159,5 +159,5 @@ def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], Literal["log"
         raise InputError(
             f"--vary: {path!r} is not an axis of a map; pass one of {', '.join(NAMES)}"
         )
-    one = read_range(f"--vary: {path}", usual(name, of), text)
+    one = read_vary_text(path, usual(name, of), text)
     return name, one.values(_NODES), "log" if one.logarithmic else "linear"

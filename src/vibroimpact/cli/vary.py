@@ -83,18 +83,18 @@ def _example(varied: Parameter, now: float | None) -> str:
     return f", such as {low}:{high}, which is ±30 % of that of the rig"
 
 
-def read_range(option: str, varied: Parameter, text: str, now: float | None = None) -> Varied:
+def read_vary_text(path: str, varied: Parameter, text: str, now: float | None = None) -> Varied:
     """Read ``LOW:HIGH[:log][:NUMBER]``. `now` is the value of the rig, for messages.
 
     Raises
     ------
     InputError
-        If the text is not such a range. The message contains the name of the option.
+        If the text is not such a range. The message contains the path.
     """
-    from vibroimpact.model import to_si
+    from vibroimpact.model.parameter_ranges import field_of, read_range
     from vibroimpact.model.quantities import DIMENSIONLESS
-    from vibroimpact.model.units import pretty
 
+    option = f"--vary: {path}"
     parts = [part.strip() for part in text.split(":")]
     logarithmic = "log" in parts[2:3]
     rest = parts[3:] if logarithmic else parts[2:]
@@ -108,17 +108,7 @@ def read_range(option: str, varied: Parameter, text: str, now: float | None = No
             f"{option}: {text!r} is in percent, but a range has the values themselves; write them "
             f"with a unit{_example(varied, now)}"
         )
-    above = 0.0 if logarithmic or not varied.zero else None
-    least = varied.least if above is None else None
-    low, high = (
-        to_si(part, varied.quantity, option, above=above, minimum=least, maximum=varied.most)
-        for part in parts[:2]
-    )
-    if not low < high:
-        raise InputError(
-            f"{option}: the lower end of the range, {pretty(low, varied.quantity)}, is not below "
-            f"the upper end, {pretty(high, varied.quantity)}; write the lower end first"
-        )
+    low, high = read_range(varied, (parts[0], parts[1]), field_of(path), positive=logarithmic).ends
     number = None
     if rest:
         number = int(rest[0]) if rest[0].isascii() and rest[0].isdecimal() else 0
@@ -156,9 +146,8 @@ def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[V
         varied = parameter(path, what.rig, "--vary")
         if varied.name in found:
             raise InputError(f"--vary: {path!r} is given twice; remove one of the two")
-        option = f"--vary: {path}"
         found[varied.name] = (
-            read_range(option, varied, text, _value(what, varied)) if text else _frequencies(what)
+            read_vary_text(path, varied, text, _value(what, varied)) if text else _frequencies(what)
         )
     return list(found.values())
 

@@ -3,33 +3,33 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import Any
 
 import xarray as xr
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
-from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import NAMED_DIMS, VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.system import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
+CHECKS_DIMS = False
+"""Whether `describe` checks dims, which tests do: users get what was computed."""
 COMPONENTS = [
     "displacement",
     "velocity",
     "deformation.right",
     "deformation.left",
     "phase",
-    "contact",
+    "touching.right",
+    "touching.left",
     "isolator",
 ]
-"""Components of the state of an oscillator in a dataset.
-
-Of both sides, with or without stops; ``deformation.left`` has the sign of the engine, negative when
-compressed, so that derivatives of states are those of the equations."""
+"""Components of the state of an oscillator in a dataset, of both sides, with or without stops."""
 
 
 def describe(
@@ -51,6 +51,8 @@ def describe(
     ------
     KeyError
         If a variable is not in the registry.
+    ValueError
+        In tests: if it has other dims than the registry states.
     """
     known = {one.name: Variable(one.units, one.long_name) for one in varied}
     if parameters is None and "parameters" in dataset.attrs:
@@ -59,6 +61,8 @@ def describe(
         still = parameters is not None and _stands(parameters)
     for name in dataset.variables:
         variable = VARIABLES.get(str(name)) or known[str(name)]
+        if CHECKS_DIMS and name not in known:
+            _check_dims(str(name), dataset.variables[name].dims)
         long_name = variable.long_name
         if still:  # what is relative to a base at rest is absolute
             long_name = long_name.replace("relative ", "absolute ")
@@ -76,13 +80,35 @@ def describe(
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
-    if told := "\n".join(notes):
+    if told := "\n".join(dict.fromkeys([*_assumptions(dataset, parameters), *notes])):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
     # The rigs of a fit are an attribute of their own.
     if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
         remove_units(dataset)
     return dataset
+
+
+def _assumptions(dataset: xr.Dataset, parameters: dict[str, Any] | None) -> Iterator[str]:
+    """Yield what was assumed to read the rigs of a dataset."""
+    if parameters is None:
+        text = dataset.attrs.get("parameters", "")
+        parameters = json.loads(text) if '"assumptions"' in text else {}
+    for one in parameters.get("rigs", [parameters]):
+        yield from one.get("assumptions", ())
+
+
+def _check_dims(name: str, dims: tuple[Hashable, ...]) -> None:
+    """Check that a variable may have these dims.
+
+    Raises
+    ------
+    ValueError
+        If it may not.
+    """
+    words = [str(one) for one in dims]
+    if words != [name] and not VARIABLES[name].has_dims(words, NAMED_DIMS):
+        raise ValueError(f"{name}: its dims {words} are none of {VARIABLES[name].dims}")
 
 
 def base_at_rest(data: xr.Dataset) -> bool:
@@ -180,8 +206,12 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
 
 
 def system_parameters(system: System) -> dict[str, Any]:
-    """Return an oscillator or an assembly by its kind, for the attributes of a dataset."""
-    return {system.word: system.model_dump()}
+    """Return an oscillator or an assembly by its kind, for the attributes of a dataset.
+
+    The entry ``assumptions`` is what was assumed to read it, and left out if nothing was.
+    """
+    assumed = {"assumptions": list(system.assumptions)} if system.assumptions else {}
+    return {system.word: system.model_dump(), **assumed}
 
 
 def system_from(parameters: Mapping[str, Any]) -> System:

@@ -111,7 +111,11 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: File) -> Path:
 
 
 def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
-    """Return the bytes of a NetCDF file, with their digest appended."""
+    """Return the bytes of a NetCDF file, with their digest appended.
+
+    The checksums of HDF5 do not protect names and attributes: with them, of 1,500 random flips of
+    a bit in a file, 48 changed the dataset that was read, without an error.
+    """
     file = io.BytesIO()
     data.to_netcdf(file, engine="h5netcdf")
     content = file.getvalue()
@@ -137,6 +141,7 @@ def _unsealed(content: bytes) -> tuple[bytes, bool]:
     return content, True
 
 
+@public
 def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     """Read a dataset from a file that `save` has written.
 

@@ -9,12 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.variable import PARTS
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.system import PartNames, System
 
-PARTS = ("stop", "mass", "link")
-"""Dims of the parts of a rig."""
 _SUMS = ("impacts", "impact_count", "impulse")
 """Variables whose value for all stops is their sum; for others it is the largest."""
 
@@ -41,9 +40,9 @@ def shared_part_names(systems: Sequence[System]) -> PartNames:
     return names | {"stop": np.array(stops, dtype=names["stop"].dtype)}
 
 
-def stop_names(sides: NDArray[Any]) -> NDArray[np.str_]:
-    """Return the names of stops from the engine's numbers of sides: 1 right, -1 left."""
-    return np.where(sides > 0, *SIDES)
+def stop_names(numbers: NDArray[Any]) -> NDArray[np.str_]:
+    """Return the names of an oscillator's stops from the engine's numbers of them."""
+    return np.where(numbers == 0, *SIDES)
 
 
 def by_stop(

@@ -1,10 +1,10 @@
-"""Units and meaning of every output variable.
+"""Dims, units and meaning of every output variable.
 
-A new variable is an entry here (sweeps), or in `motion_variables` (one motion, contacts, orbits and
-branches), `fit_variables` (measurements and fits), `design_variables` (earthquakes, stops,
-ensembles), `batch_variables` (basins, manifolds, maps), `stop_variables` (dim ``stop``) or
-`assembly_variables`. `describe` of `datasets/description.py` raises an error if a dataset has an
-unknown one.
+A new variable is an entry, with its dims, here (sweeps), or in `motion_variables` (one motion,
+contacts, orbits and branches), `fit_variables` (measurements and fits), `design_variables`
+(earthquakes, stops, ensembles), `batch_variables` (basins, manifolds, maps), `stop_variables` (dim
+``stop``) or `assembly_variables`. `describe` of `datasets/description.py` raises an error if a
+dataset has an unknown one, and in tests if a variable has other dims.
 
 An output is an entry, and the place that computes it: `response/simulate.py` for histories; `sizes`
 of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, maps), and
@@ -12,11 +12,11 @@ of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, m
 reference, dims and attributes follow from the entry. What Python computes from one motion is a
 module of `response/`, which follows the contacts of the motion again (example: `totals.py`); the
 first velocity of a contact is the closing speed of a law with a coefficient of restitution.
-CONTRIBUTING states what the engine needs.
+`engine.observers` states what the engine needs.
 
 The command ``motion`` prints each number of `_measured` (by stop, if it has this dim); its rows are
-in `_motion` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
-`facts/assembly.py`. An entry of `_WORDS` of `facts/largest.py` prints the largest value of sweeps.
+in `_ROWS` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
+`facts/assembly.py`. An entry of `_LINES` of `facts/largest.py` prints the largest value of sweeps.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from vibroimpact.datasets.assembly_variables import ASSEMBLIES
 from vibroimpact.datasets.batch_variables import MANY_MOTIONS
 from vibroimpact.datasets.design_variables import DESIGN
 from vibroimpact.datasets.fit_variables import FITS
-from vibroimpact.datasets.motion_variables import MOTIONS
+from vibroimpact.datasets.motion_variables import MOTIONS, STATE_UNITS
 from vibroimpact.datasets.stop_variables import OF_STOPS
-from vibroimpact.datasets.variable import Variable, integer, text
+from vibroimpact.datasets.variable import ANY_PEAKS, STEADY, Variable, along, each, integer, text
 from vibroimpact.model.parameters import PARAMETERS
 
 _OVER = (
@@ -41,90 +41,121 @@ _CARRIED = (
 
 
 VARIABLES: dict[str, Variable] = {
-    # parameters that can be varied
-    **{p.name: Variable(p.units, p.long_name, p.comment) for p in PARAMETERS.values()},
-    # coordinates
-    "direction": text("sweep direction"),
-    "rig": text("rig"),
-    "time": Variable("s", "time"),
-    "cycle": Variable("1", "time in forcing cycles"),
-    "start": text(
-        "initial state of the motions", "up, down: the final state at the previous value"
+    **along(
+        ("*", "point"),
+        **{p.name: Variable(p.units, p.long_name, p.comment) for p in PARAMETERS.values()},
     ),
-    "component": text(
-        "component of the state",
-        "deformation.left of an oscillator is negative when compressed, unlike the variable",
+    **along(("direction", ""), direction=text("sweep direction")),
+    **along("rig", rig=text("rig")),
+    **along(
+        "time",
+        time=Variable("s", "time"),
+        cycle=Variable("1", "time in forcing cycles"),
     ),
-    # sweep
-    "displacement_excursion": Variable(
-        "m", "excursion of relative displacement", "exact maximum minus exact minimum", part="mass"
+    **along(
+        "start",
+        start=text(
+            "initial state of the motions", "up, down: the final state at the previous value"
+        ),
     ),
-    "acceleration_excursion": Variable(
-        "m s-2",
-        "excursion of absolute acceleration",
-        "exact maximum minus exact minimum, including one-sided values at contact and detachment",
-        part="mass",
+    **along(
+        "component",
+        component=text(
+            "component of the state",
+            "deformation.STOP is positive when compressed; touching.STOP is 1 if the bodies of the "
+            "stop touch, and 0 otherwise; isolator and memory.LINK are the memories of the laws",
+        ),
     ),
-    "eta_d": Variable("1", "normalised excursion of relative displacement", _OVER),
-    "eta_a": Variable("1", "normalised excursion of absolute acceleration", _OVER),
-    "displacement_max": Variable(
-        "m", "largest relative displacement", "largest displacement to the right", part="mass"
+    **along(
+        STEADY,
+        displacement_excursion=Variable(
+            "m",
+            "excursion of relative displacement",
+            "exact maximum minus exact minimum",
+            part="mass",
+        ),
+        acceleration_excursion=Variable(
+            "m s-2",
+            "excursion of absolute acceleration",
+            "exact maximum minus exact minimum, including one-sided values at contact and "
+            "detachment",
+            part="mass",
+        ),
+        eta_d=Variable("1", "normalised excursion of relative displacement", _OVER),
+        eta_a=Variable("1", "normalised excursion of absolute acceleration", _OVER),
+        acceleration_max=Variable("m s-2", "largest absolute acceleration", part="mass"),
+        acceleration_min=Variable("m s-2", "smallest absolute acceleration", part="mass"),
+        transmitted_force_max=Variable("N", "largest force transmitted to the base", _CARRIED),
+        transmitted_force_min=Variable("N", "smallest force transmitted to the base", _CARRIED),
+        transmitted_force_excursion=Variable(
+            "N",
+            "excursion of the force transmitted to the base",
+            "exact maximum minus exact minimum",
+        ),
+        transmissibility=Variable(
+            "1",
+            "transmissibility of the force",
+            "excursion of the force transmitted to the base divided by that of the exciting force: "
+            "of the force on the mass, or of M A_t if the base moves",
+        ),
+        eccentricity=Variable(
+            "m", "eccentricity", "half the sum of the displacement's extremes", part="mass"
+        ),
+        motion=text(
+            "kind of motion",
+            "periodic, quasi-periodic, chaotic or undecided; a sweep distinguishes periodic and "
+            "undecided only",
+        ),
+        period=integer("period in forcing cycles", "0 where the motion did not settle"),
+        cycles=integer(
+            "number of forcing cycles simulated, including the measured ones",
+            "0 where the free motion was computed in closed form",
+        ),
     ),
-    "displacement_min": Variable(
-        "m",
-        "smallest relative displacement",
-        "minus the largest displacement to the left",
-        part="mass",
+    **along(
+        ANY_PEAKS,
+        displacement_max=Variable(
+            "m", "largest relative displacement", "largest displacement to the right", part="mass"
+        ),
+        displacement_min=Variable(
+            "m",
+            "smallest relative displacement",
+            "minus the largest displacement to the left",
+            part="mass",
+        ),
+        peak_transmitted_force=Variable(
+            "N", "largest force transmitted to the base, without sign", _CARRIED
+        ),
+        status=integer("how the computation ended"),
     ),
-    "acceleration_max": Variable("m s-2", "largest absolute acceleration", part="mass"),
-    "acceleration_min": Variable("m s-2", "smallest absolute acceleration", part="mass"),
-    "transmitted_force_max": Variable("N", "largest force transmitted to the base", _CARRIED),
-    "transmitted_force_min": Variable("N", "smallest force transmitted to the base", _CARRIED),
-    "transmitted_force_excursion": Variable(
-        "N", "excursion of the force transmitted to the base", "exact maximum minus exact minimum"
+    **along(
+        ("*", "rig *"),
+        free_displacement_excursion=Variable(
+            "m", "excursion of relative displacement in steady free flight"
+        ),
+        free_acceleration_excursion=Variable(
+            "m s-2", "excursion of absolute acceleration in steady free flight"
+        ),
+        free_transmitted_force_excursion=Variable(
+            "N", "excursion of the force transmitted to the base in steady free flight"
+        ),
     ),
-    "peak_transmitted_force": Variable(
-        "N", "largest force transmitted to the base, without sign", _CARRIED
+    **along(
+        ("", "rig"),
+        largest_free_displacement_excursion=Variable(
+            "m", "largest excursion of relative displacement in free flight at any frequency"
+        ),
+        largest_free_acceleration_excursion=Variable(
+            "m s-2", "largest excursion of absolute acceleration in free flight at any frequency"
+        ),
     ),
-    "transmissibility": Variable(
-        "1",
-        "transmissibility of the force",
-        "excursion of the force transmitted to the base divided by that of the exciting force: of "
-        "the force on the mass, or of M A_t if the base moves",
-    ),
-    "eccentricity": Variable(
-        "m", "eccentricity", "half the sum of the displacement's extremes", part="mass"
-    ),
-    "motion": text(
-        "kind of motion",
-        "periodic, quasi-periodic, chaotic or undecided; a sweep distinguishes periodic and "
-        "undecided only",
-    ),
-    "period": integer("period in forcing cycles", "0 where the motion did not settle"),
-    "cycles": integer(
-        "number of forcing cycles simulated, including the measured ones",
-        "0 where the free motion was computed in closed form",
-    ),
-    "status": integer("how the computation ended"),
-    "free_displacement_excursion": Variable(
-        "m", "excursion of relative displacement in steady free flight"
-    ),
-    "free_acceleration_excursion": Variable(
-        "m s-2", "excursion of absolute acceleration in steady free flight"
-    ),
-    "free_transmitted_force_excursion": Variable(
-        "N", "excursion of the force transmitted to the base in steady free flight"
-    ),
-    "largest_free_displacement_excursion": Variable(
-        "m", "largest excursion of relative displacement in free flight at any frequency"
-    ),
-    "largest_free_acceleration_excursion": Variable(
-        "m s-2", "largest excursion of absolute acceleration in free flight at any frequency"
-    ),
-    "section": Variable(
-        "1",
-        "state at the stroboscopic section at the end of each frequency step",
-        "components in m, m/s, m, m, rad and 1",
+    **along(
+        each(STEADY, "component"),
+        section=Variable(
+            "1",
+            "state at the stroboscopic section at the end of each frequency step",
+            STATE_UNITS,
+        ),
     ),
     **OF_STOPS,
     **ASSEMBLIES,
@@ -133,3 +164,11 @@ VARIABLES: dict[str, Variable] = {
     **DESIGN,
     **MANY_MOTIONS,
 }
+
+NAMED_DIMS = {word for one in VARIABLES.values() for dims in one.dims for word in dims.split()} - {
+    "*",
+    "...",
+    "part",
+    "frequency",
+}
+"""Dims that are not parameters."""

@@ -191,7 +191,8 @@ def demands(
         "factor": (("record", "scale"), factors),
         "intensity": ("record", known),
     }
-    notes = record_notes(shaking)
+    assumed = (one.assumptions for one in rigs.rigs.values())
+    notes = [*itertools.chain(*assumed), *record_notes(shaking)]
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
     with folder(store, task.kind, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):

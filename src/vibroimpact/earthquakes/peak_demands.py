@@ -18,8 +18,8 @@ from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_ta
 from vibroimpact.engine import earthquakes as found
 from vibroimpact.engine import sections
 from vibroimpact.engine.assembly.plan import Drift
-from vibroimpact.engine.observers import demand, extremes
 from vibroimpact.engine.observers.phases import Layout
+from vibroimpact.engine.one_mass import demand, extremes
 from vibroimpact.model import Record, equilibrium
 from vibroimpact.model.rig import Rig, one_mass_only
 from vibroimpact.model.system import System
@@ -200,9 +200,9 @@ def _named(
         rows[..., extremes.U_MOST],
         rows[..., extremes.U_LEAST],
         acceleration,
-        mass[..., np.newaxis] * rows[..., [extremes.FORCE_RIGHT, extremes.FORCE_LEFT]],
-        mass[..., np.newaxis] * rows[..., [extremes.IMPULSE_RIGHT, extremes.IMPULSE_LEFT]],
-        rows[..., [extremes.HITS_RIGHT, extremes.HITS_LEFT]],
+        mass[..., np.newaxis] * rows[..., extremes.by_stop(extremes.FORCE)],
+        mass[..., np.newaxis] * rows[..., extremes.by_stop(extremes.IMPULSE)],
+        rows[..., extremes.by_stop(extremes.HITS)],
     ]
     values: dict[str, NDArray[Any]] = dict(zip(PEAKS, columns, strict=True))
     if energies:

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import PARTS, quantities
+from vibroimpact.datasets.stops import quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
+from vibroimpact.datasets.variable import PARTS
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown, warn_of_result

@@ -1,6 +1,7 @@
 """Many states followed from section to section until each is caught where no motion leaves again.
 
-A trap is an ellipsoid around a point of the section, or a set of cells of the plane of u and u̇.
+A trap is an ellipsoid around a point of the section, or a set of cells of the plane of u and u̇ of
+the first mass.
 That nothing leaves it is for others to show (`vibroimpact.attraction.traps`).
 """
 
@@ -17,8 +18,6 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import U, V
-from vibroimpact.engine.one_mass import PARTS
 from vibroimpact.engine.sections import advance
 from vibroimpact.engine.state import FIRST, copy, load, room, width
 from vibroimpact.engine.status import (
@@ -29,10 +28,8 @@ from vibroimpact.engine.status import (
 )
 
 OWNER, REACH, CENTRE = 0, 1, 2
-"""Of a trap: whose it is, its half width in u (m), its centre (u, u̇, u_R, u_L, z), and the matrix
-of the form that is at most 1 within."""
-FORM = CENTRE + PARTS
-TRAP = FORM + PARTS * PARTS
+"""Of a trap: whose it is, its half width in u (m), the parts of its centre, and the matrix of
+the form that is at most 1 within."""
 
 LOW_U, LOW_V, STEP_U, STEP_V = range(4)
 """Of the cells: corner of the first one, and their sides (m, m/s)."""
@@ -43,16 +40,26 @@ CAUGHT, CYCLES, OUTCOME = range(3)
 RESULT = 3
 
 
+def form_of(parts: int) -> int:
+    """Where the form begins in a trap of states with so many parts."""
+    return CENTRE + parts
+
+
+def trap_width(parts: int) -> int:
+    """Length of such a trap."""
+    return form_of(parts) + parts * parts
+
+
 @kernel
-def holds(trap: Vector, state: Vector) -> bool:
+def holds(trap: Vector, state: Vector, parts: int) -> bool:
     """Whether a state at the section lies in a trap."""
-    if not abs(state[U] - trap[CENTRE]) <= trap[REACH]:
+    if not abs(state[FIRST] - trap[CENTRE]) <= trap[REACH]:
         return False
-    form = 0.0
-    for i in range(PARTS):
+    form, first = 0.0, CENTRE + parts
+    for i in range(parts):
         row = 0.0
-        for j in range(PARTS):
-            row += trap[FORM + PARTS * i + j] * (state[FIRST + j] - trap[CENTRE + j])
+        for j in range(parts):
+            row += trap[first + parts * i + j] * (state[FIRST + j] - trap[CENTRE + j])
         form += row * (state[FIRST + i] - trap[CENTRE + i])
     return form <= 1.0
 
@@ -88,14 +95,14 @@ def caught(
         Forcing cycles for each state; contacts and detachments in one at which it is given up.
     anew : bool
         Whether the states are those of `points`, put where they can be, rather than `states`.
-    points : ndarray, shape (n, 5) or (0, 5)
-        u, u̇, u_R, u_L, z, the deformations away from the mass.
-    traps : ndarray, shape (k, TRAP)
+    points : ndarray, shape (n, parts) or (0, parts)
+        Parts of states (`state.Parts.of_point`), the deformations away from the mass.
+    traps : ndarray, shape (k, trap_width(parts))
     cells : ndarray of int, shape (rows, columns)
         Whose each cell is, −1 if nobody's: rows along u̇, columns along u.
     grid : ndarray, shape (GRID,)
         Where the cells are.
-    states : ndarray, shape (n, motion.STATE)
+    states : ndarray, shape (n, state.width)
         Carried on in place.
     results : ndarray of int, shape (n, RESULT)
         Written.
@@ -108,10 +115,12 @@ def caught(
     s, c = math.sin(phase), math.cos(phase)
     here, section = room(), room()
     slow = flow.too_much_work(plan, period) != 0
+    parts = flow.parts(plan)
+    velocity = FIRST + flow.coordinates(plan) // 2
     for n in range(len(states)):
         load(plan, pointer(states[n]), here, s, c)
         if anew:
-            for i in range(PARTS):
+            for i in range(parts):
                 here[FIRST + i] = points[n, i]
             flow.place(plan, here)
         owner, k = -1, 0
@@ -121,12 +130,12 @@ def caught(
                 outcome = STOPPED
                 break
             for i in range(len(traps)):
-                if holds(traps[i], here):
+                if holds(traps[i], here, parts):
                     owner = int(traps[i, OWNER])
                     break
             if owner < 0 and len(cells):
-                column = math.floor((here[U] - grid[LOW_U]) / grid[STEP_U])
-                row = math.floor((here[V] - grid[LOW_V]) / grid[STEP_V])
+                column = math.floor((here[FIRST] - grid[LOW_U]) / grid[STEP_U])
+                row = math.floor((here[velocity] - grid[LOW_V]) / grid[STEP_V])
                 if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
                     owner = cells[row, column]
             if owner >= 0:

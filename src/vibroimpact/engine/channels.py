@@ -16,10 +16,10 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly.layout import TERMS
+from vibroimpact.engine.extreme_search import searching
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.observers.extremes import searching
 
 DISPLACEMENT, VELOCITY, ACCELERATION, ABSOLUTE_ACCELERATION, CLEARANCE, FORCE, DEFORMATION = range(
     7
@@ -39,7 +39,7 @@ series_room = stack(SERIES)
 CURSOR_SIZE = 15
 """Most numbers of a cursor, by which one mass goes from piece to piece (`pieces.keep_cursor`)."""
 piece_room = stack(OWN + 3 + ORDER + CURSOR_SIZE)
-"""Room for them: of one mass three numbers, a series and a cursor (`one_mass_channels`)."""
+"""Room for them: of one mass three numbers, a series and a cursor (`one_mass.channels`)."""
 
 
 @kernel

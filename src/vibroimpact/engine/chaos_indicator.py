@@ -1,8 +1,8 @@
 """Whether a motion is plainly chaotic: two of them side by side.
 
 A second motion begins next to the first, and after each cycle it is brought back to that distance.
-What the distances grow by tells a motion that runs away from its neighbours at once, within a few
-cycles, from one that is slow to settle. Little growth tells nothing.
+The growth of these distances distinguishes, within a few cycles, a motion that runs away from its
+neighbours at once from one that is slow to settle. Little growth decides nothing.
 """
 
 from __future__ import annotations

@@ -16,10 +16,9 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import U
-from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST, notes_room
+from vibroimpact.engine.one_mass.extremes import U_LEAST, U_MOST, notes_room
 from vibroimpact.engine.sections import LASTS, C, S, Schedule, observed, row_room
-from vibroimpact.engine.state import load, room
+from vibroimpact.engine.state import FIRST, load, room
 from vibroimpact.engine.status import DONE, STOPPED, TOO_MUCH_WORK
 
 # What is found of a run: the notes of `flow.demand`, then where one mass comes to rest, half the
@@ -108,7 +107,7 @@ def _settled(
     """
     outcome = DONE
     notes = notes_room()
-    middle, swing = state[U], math.inf
+    middle, swing = state[FIRST], math.inf
     for _ in range(blocks):
         flow.nothing(plan, notes)
         outcome = _swing_freely(plan, state, step, block, max_events, notes, counter)

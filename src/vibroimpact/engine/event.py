@@ -15,7 +15,7 @@ from vibroimpact.engine.jit import inlined
     PASSED,
     GIVEN_UP,
     # At a stop: a deformable one is met; a rigid one is hit, or a chatter there ends in rest (the
-    # mode tells); a deformable one is left; a rest on a rigid one ends.
+    # mode shows which); a deformable one is left; a rest on a rigid one ends.
     CONTACT,
     IMPACT,
     DETACHMENT,

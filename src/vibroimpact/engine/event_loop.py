@@ -12,16 +12,15 @@ from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import SETTLING
 from vibroimpact.engine.observers.phases import note
-from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
+from vibroimpact.engine.state import EVENT, FRESH, SETTLING, STEP, T, room, stretch_room
 
 
 def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
     """Make the loop over a flow's function `advance`, with an observer or None.
 
     What follows `max_events` is passed on to the observer. `load` and `put` copy a state, `finite`
-    tells whether it is within the range of numbers, as those of `state` do for every flow.
+    returns whether it is within the range of numbers, as those of `state` do for every flow.
     """
 
     def cycle(

@@ -1,7 +1,7 @@
 """Closing in on a steady motion faster than by following it: extrapolation, and following again.
 
 Near a fixed point the map P of the stroboscopic state is affine, and in the plane of u and u̇,
-where all else has been forgotten, two secants tell all of it. With f = P(x) − x and differences Δ
+where all else has been forgotten, two secants determine it. With f = P(x) − x and differences Δ
 over the last three states, the next guess is P(x) − ΔP θ, θ = argmin ‖f − Δf θ‖ (Anderson's
 acceleration with two secants). While the motion is only followed this is the limit of the two
 geometric series in which it approaches.
@@ -75,12 +75,12 @@ def guess(held: Vector, units: Vector, parts: int) -> tuple[float, float, bool]:
     Returns
     -------
     way, moved, contracts
-        From the newest state's image to the guess, and from the former guess; whether the map, as
-        its secants tell it, contracts.
+        From the newest state's image to the guess, and from the former guess; whether the map, by
+        its secants, contracts.
     """
     one, two, goal = 2 * parts, 4 * parts, _HELD * 2 * parts
     a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
-    # Of the secants of x, by which those of P are told: P's eigenvalues.
+    # Of the secants of x, in which those of P are expressed: eigenvalues of P.
     x11, x12, x22, p11, p12, p21, p22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(parts):
         w = units[i] * units[i]
@@ -198,7 +198,7 @@ def extrapolate(
             ahead, stepped, alike, filled, last = False, False, 0, 0, math.inf
             waits = k + _WAITS
             continue
-        if stepped and change > 0.5 * before:  # there is more to it than the secants tell
+        if stepped and change > 0.5 * before:  # the secants do not describe all of it
             stepped, filled = False, 1
         before = change
         if alike < 2 or filled < 3:

@@ -10,8 +10,13 @@ A state is a vector: the mode, what has just happened, the *parts* that make a d
 displacement and velocity), the age of the mode (s), and the clock of the forcing, two numbers. It
 is carried on in place.
 
-A plan begins with the rig's vector, of which these may vary: so many `numbers`. To add a flow,
-write these functions for it, with the arguments that are declared here.
+A plan begins with the rig's vector, of which these may vary: so many `numbers`.
+
+To add a flow of one mass, write the kernels of `dispatch` in a folder, and enter them in
+`flow_dispatch`: a type of plan in `_ADVANCE`, its laws in `_LAWS`, its modules by `answer`, its
+rigs in `_flow`; the functions here follow (`one_mass`). For any other flow, write a module of these
+functions with the arguments that are declared here, and enter it in `FLOWS` of `flow_tables`, with
+its type in `SEVERAL_MASSES` and `_flow` of `flow_dispatch`, and its choice in `plain` here.
 """
 
 from __future__ import annotations
@@ -88,7 +93,7 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     """An intrinsic that calls the function at a place of the table of its first argument."""
 
     def typed(*given: Any) -> tuple[Any, Callable[..., Any]]:
-        # Arrays stand for their memory, and a plan that tells its flow for a plan.
+        # Arrays stand for their memory, and a plan whose type names its flow for a plan.
         taken = [
             one if isinstance(one, types.Array | types.CPointer) else kind
             for one, kind in zip(given, declared.args, strict=True)
@@ -278,7 +283,7 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
 
 @_function(_MOTION, types.void, P, P, P, P)
 def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.extremes`."""
+    """See `one_mass.extremes`."""
 
 
 @_function(_MOTION, types.void, P)
@@ -301,7 +306,7 @@ def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Ve
 
 @_function(_DISTURBED, types.void, P, P, P, P)
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.margin`."""
+    """See `one_mass.margin`."""
 
 
 @_function(_RECORDED, types.void, P, P, P, P, P, P)
@@ -314,12 +319,12 @@ def record(
     samples: Vector,
     events: Vector,
 ) -> None:
-    """See `observers.record`."""
+    """See `one_mass.record`."""
 
 
 @_function(_RECORDED, types.void, P, P, _N, _N)
 def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
-    """Write a state as one of the samples of `observers.record`."""
+    """Write a state as one of the samples of `one_mass.record`."""
 
 
 @_function(_DISTURBED, types.void, P, P)
@@ -355,7 +360,7 @@ def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
 
 @_function(_MEASURED, types.void, P, P, P, P)
 def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.demand`."""
+    """See `one_mass.demand`."""
 
 
 # Channels, over which other observers are written.

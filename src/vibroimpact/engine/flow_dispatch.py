@@ -5,7 +5,7 @@ A flow of one mass is a kernel
     advance(plan, motion, limit) -> event, t, arrival, motion
 
 that goes on to the next event, and a rule which rigs it can carry. Its functions for the rest of
-the engine are those of `one_mass`.
+the engine are those of `one_mass.table`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ from vibroimpact.engine.linear.advance import advance_apart
 from vibroimpact.engine.linear.any_stops import advance_any
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import Ended, Motion
 from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
@@ -108,7 +107,7 @@ class CurvedMasses(NamedTuple):
 SEVERAL_MASSES = (Masses, CurvedMasses)
 
 
-_ADVANCE: dict[type, Callable[..., Any]] = {
+ADVANCE: dict[type, Callable[..., Any]] = {
     Apart: advance_apart,
     AnyStops: advance_any,
     Several: advance_any,
@@ -123,7 +122,7 @@ _YIELDING: dict[float, type] = {
     par.SEVERAL: YieldingSeveral,
     par.RAMP: YieldingRecorded,
 }
-FLOWS = (*_ADVANCE, *SEVERAL_MASSES)
+FLOWS = (*ADVANCE, *SEVERAL_MASSES)
 """Every flow."""
 _LAWS = {Curved: par.BENT, **dict.fromkeys(_YIELDING.values(), par.YIELDING)}
 _FORCING = {
@@ -269,21 +268,3 @@ def _planned(given: Any, rig: Any) -> Any:
         return plan
 
     return implementation
-
-
-def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
-    """Go on to the next event, or for the time `limit` if that comes first.
-
-    Returns
-    -------
-    event, t, arrival, motion
-        What ended the stretch (see `event`), its length (s), the velocity just before the event,
-        and the motion just after it.
-    """
-    chosen: Any = (advance_any, advance_taylor, advance_yielding)[par.laws(plan)]
-    return chosen(plan, motion, limit)  # type: ignore[no-any-return]
-
-
-@overload(advance, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
-def _advance(plan: Any, motion: Any, limit: Any) -> Any:
-    return _ADVANCE[plan.flow].py_func  # type: ignore[attr-defined]

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import flow, one_mass
+from vibroimpact.engine import flow
 from vibroimpact.engine.assembly import table as several_masses
 from vibroimpact.engine.assembly.curved import table as curved_masses
 from vibroimpact.engine.compilation import Compiled
 from vibroimpact.engine.compiler import PLAIN
 from vibroimpact.engine.flow_dispatch import SEVERAL_MASSES, PlanType, flow_of
 from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.one_mass import table as one_mass
 
 flow.FLOWS += [one_mass, several_masses, curved_masses]
 

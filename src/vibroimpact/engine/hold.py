@@ -16,7 +16,7 @@ from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.fixed_point import DYING
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.observers import extremes
+from vibroimpact.engine.one_mass import extremes
 from vibroimpact.engine.sections import observed, repeated, row_room
 from vibroimpact.engine.settling import settle
 from vibroimpact.engine.state import begin_again, measures_room, put, room, wind
@@ -26,25 +26,18 @@ PERIOD, CYCLES, OUTCOME = range(3)
 """Of what a hold writes: the period in forcing cycles, 0 if it did not settle, the cycles used, a
 `Status`."""
 MEASURED = 3
-"""Then what `flow.measured` writes, here of one mass."""
-U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, FORCE_RIGHT, FORCE_LEFT = (
+"""Then what `flow.measured` writes, here of one mass; HITS, FORCE and IMPULSE are those of stop 0,
+which those of others follow."""
+U_LEAST, U_MOST, A_LEAST, A_MOST, HITS, FORCE, IMPULSE, T_LEAST, T_MOST = (
     MEASURED + i
     for i in (
         extremes.U_LEAST,
         extremes.U_MOST,
         extremes.A_LEAST,
         extremes.A_MOST,
-        extremes.HITS_RIGHT,
-        extremes.HITS_LEFT,
-        extremes.FORCE_RIGHT,
-        extremes.FORCE_LEFT,
-    )
-)
-IMPULSE_RIGHT, IMPULSE_LEFT, T_LEAST, T_MOST = (
-    MEASURED + i
-    for i in (
-        extremes.IMPULSE_RIGHT,
-        extremes.IMPULSE_LEFT,
+        extremes.HITS,
+        extremes.FORCE,
+        extremes.IMPULSE,
         extremes.T_LEAST,
         extremes.T_MOST,
     )

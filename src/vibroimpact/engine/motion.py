@@ -9,11 +9,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.state import ARRIVAL, EVENT, STEP, T
+from vibroimpact.engine.linear.layout import Row
+from vibroimpact.engine.state import ARRIVAL, EVENT, FRESH, MODE, ONE_MASS, STEP, Clock, T
 
-FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
-"""The discrete mode: which stops the mass touches, bit j for stop j. Touching a rigid one is
-resting."""
+RIGHT, LEFT = 1 << 0, 1 << 1
+BOTH = RIGHT | LEFT
+"""Modes in contact, by the stops that the mass touches (`state.MODE`)."""
 
 SEEN_LEFT = 4
 """The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
@@ -21,22 +22,19 @@ SEEN_LEFT = 4
 RELEASED = 4
 """Added to the bit of the stop that has just been left if the mass was at rest there."""
 
-SETTLING = 8
-"""Added to the bit of the stop of an impact after which all others of a chatter follow at once."""
-
 SLIPS = 16
 """Shifted by the number of the stop towards which it goes, still without velocity: the bit of a
 mass that friction has just let go."""
 SLIPPED = SLIPS | SLIPS << 1
 """Both of these bits."""
 
-MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
-FACES = RIGHT_BUMPER
-STATE = 8
+U, V = ONE_MASS.displacement(), ONE_MASS.velocity()
+FACES = ONE_MASS.deformation(0)
+ISOLATOR = ONE_MASS.memory()
+AGE = ONE_MASS.age
+STATE = ONE_MASS.width
 """A motion as a vector, between calls; its clock follows."""
 
-Clock = tuple[float, float]
-"""Sine and cosine of the forcing's phase."""
 Pair = tuple[float, float]
 """A number for each stop."""
 
@@ -53,24 +51,11 @@ def changed(pair: Pair, stop: int, x: float) -> Pair:
     return (x, pair[1]) if stop == 0 else (pair[0], x)
 
 
-class Row(NamedTuple):
-    """The state row, but for its 1: a mode's own coordinate, its rate, and the forcing's phasor.
-
-    x is the displacement in flight and the pressed bumper's deformation in contact, measured
-    towards the bumper: what is pressed on the left is seen in the mirror.
-    """
-
-    x: float
-    v: float
-    s: float
-    c: float
-
-
 class Motion(NamedTuple):
     """The state of a rig and of its forcing.
 
     `fresh` is the bit of the stop at which something has just happened (0 if nothing): the mode
-    tells whether it was touched or left. `faces` are the stops' deformations; in contact the
+    shows whether it was touched or left. `faces` are the stops' deformations; in contact the
     pressed bumper's is the primary quantity, the displacement `u` follows from it. `z` is what
     the isolator remembers (m), `age` how long the mode has lasted (s).
     """
@@ -159,17 +144,6 @@ def mirrored(motion: Motion) -> Motion:
     mode, fresh, u, v, faces, z, age, clock = motion
     mirror = (faces[1], faces[0])
     return Motion(_swapped(mode), _swapped(fresh), -u, -v, mirror, -z, age, clock)
-
-
-def mirror_image(state: Vector) -> Vector:
-    """The mirror image of a state vector: what moves right moves left."""
-    image = state.copy()
-    for at in (MODE, FRESH):
-        image[at] = swapped(int(state[at]))
-    for at in (U, V, ISOLATOR):
-        image[at] = -state[at]
-    image[FACES], image[FACES + 1] = state[FACES + 1], state[FACES]
-    return image
 
 
 @inlined

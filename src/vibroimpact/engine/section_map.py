@@ -13,10 +13,17 @@ from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.motion import FLIGHT
-from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.state import DAMPING as NOTED_DAMPING
-from vibroimpact.engine.state import HITS, LARGEST, finite, notes_room, parts_room, room, wind
+from vibroimpact.engine.state import (
+    FLIGHT,
+    HITS,
+    LARGEST,
+    finite,
+    notes_room,
+    parts_room,
+    room,
+    wind,
+)
 from vibroimpact.engine.state import MODE as STATE_MODE
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
@@ -25,16 +32,12 @@ AMPLITUDE = par.SIZE
 FREQUENCY = par.SIZE + 1
 SYSTEM = par.SIZE + 2
 
-# A point: the parts of a state, signed as in the paper, then the parameter. Here that of one mass.
-PARAMETER = DISTURBANCE
-POINT = DISTURBANCE + 1
+# A point is the parts of a state (`state.Parts.of_point`), signed as in the paper, then the
+# parameter.
 
 # What an orbit shows besides: its mode at the section, the largest residual over the scale, the
 # Newton steps taken, the integral of the damping, and the contacts begun at each stop.
 MODE, RESIDUAL, STEPS, DAMPING, CONTACTS = range(5)
-CONTACTS_RIGHT, CONTACTS_LEFT = CONTACTS, CONTACTS + 1
-FACTS = CONTACTS + 2
-"""Of one mass."""
 
 facts_room = stack(CONTACTS + LARGEST)
 point_room = stack(LARGEST + 1)

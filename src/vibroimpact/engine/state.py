@@ -1,6 +1,8 @@
-"""A state between calls: a vector in memory, of a width that its flow tells (see `flow`)."""
+"""A state between calls: a vector in memory, whose width its flow determines (see `flow`)."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
@@ -10,6 +12,68 @@ MODE, FRESH, FIRST = range(3)
 """Where the mode stands, what has just happened, and the first of the parts."""
 BEHIND = 3
 """Numbers behind the parts: the age of the mode, and the clock."""
+
+FLIGHT = 0
+"""The mode in which no stop is touched; in others, bit j says that stop j is. Touching a rigid one
+is resting."""
+SETTLING = 8
+"""Of what has just happened, the bit of an impact after which all others of a chatter follow at
+once; flows that follow each impact never set it."""
+
+Clock = tuple[float, float]
+"""Of the forcing: sine and cosine of its phase, or a line's value and slope."""
+
+
+class Parts(NamedTuple):
+    """Where the parts of a state stand, of so many masses, stops and links with a memory.
+
+    In the vector of a state they begin at `first`, behind the mode and what has just happened.
+    """
+
+    masses: int
+    stops: int
+    memories: int = 0
+    first: int = FIRST
+
+    @property
+    def of_point(self) -> Parts:
+        """Where they stand in a point of the section, which has nothing else."""
+        return self._replace(first=0)
+
+    @property
+    def total(self) -> int:
+        """How many there are."""
+        return 2 * self.masses + self.stops + self.memories
+
+    @property
+    def age(self) -> int:
+        """Where the age of the mode stands, behind them."""
+        return self.first + self.total
+
+    @property
+    def width(self) -> int:
+        """Length of a state, its clock left out."""
+        return self.age + 1
+
+    def displacement(self, mass: int = 0) -> int:
+        """Place of a displacement."""
+        return self.first + mass
+
+    def velocity(self, mass: int = 0) -> int:
+        """Place of a velocity."""
+        return self.first + self.masses + mass
+
+    def deformation(self, stop: int) -> int:
+        """Place of the deformation of a stop, or of the speed at which it was met."""
+        return self.first + 2 * self.masses + stop
+
+    def memory(self, link: int = 0) -> int:
+        """Place of what a link remembers."""
+        return self.first + 2 * self.masses + self.stops + link
+
+
+ONE_MASS = Parts(1, 2, 1)
+"""Of one mass: stop 0 is on the right, stop 1 on the left, and the isolator may remember."""
 
 MOST_PARTS = 1024
 """Largest number of parts of a motion that is followed."""

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import batch, flow, flow_tables, hold, lyapunov
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch, flow, flow_tables, hold, lyapunov, state
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import AnyStops, Apart
 from vibroimpact.engine.linear.layout import PLAN
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 
 WASM = "page.wasm"
@@ -41,16 +41,16 @@ def layout_of_engine() -> dict[str, Any]:
         "groups": _GROUPS,
         "functions": len(flow.SIGNATURES),
         "plan": PLAN,
-        "state": layout.STATE,
+        "state": ONE_MASS.width,
         "results": hold.RESULTS,
-        "parts": layout.STATE - 3,
+        "parts": ONE_MASS.total,
         "record": {
             "sample": record.SAMPLE,
             "event": record.EVENT,
             **_positions(
                 record,
-                "DISPLACEMENT VELOCITY ACCELERATION RIGHT_FACE LEFT_FACE CONTACT "
-                "E_CYCLE E_TIME E_KIND E_SIDE E_V DETACHMENT",
+                "DISPLACEMENT VELOCITY ACCELERATION DEFORMATION TOUCHED "
+                "E_CYCLE E_TIME E_KIND E_STOP E_V DETACHMENT",
             ),
         },
         "rig": {
@@ -64,12 +64,14 @@ def layout_of_engine() -> dict[str, Any]:
         },
         "hold": _positions(
             hold,
-            "PERIOD CYCLES OUTCOME U_LEAST U_MOST A_LEAST A_MOST HITS_RIGHT HITS_LEFT FORCE_RIGHT "
-            "FORCE_LEFT IMPULSE_RIGHT IMPULSE_LEFT T_LEAST T_MOST",
+            "PERIOD CYCLES OUTCOME U_LEAST U_MOST A_LEAST A_MOST HITS FORCE IMPULSE T_LEAST T_MOST",
         ),
-        "motion": _positions(
-            layout, "MODE FRESH U V RIGHT_BUMPER LEFT_BUMPER ISOLATOR FLIGHT RIGHT LEFT BOTH"
-        ),
+        "motion": {
+            **_positions(state, "MODE FRESH FLIGHT"),
+            "U": ONE_MASS.displacement(),
+            "V": ONE_MASS.velocity(),
+            "DEFORMATION": ONE_MASS.deformation(0),
+        },
         "advice": {int(one): one.advice for one in Status},
     }
 

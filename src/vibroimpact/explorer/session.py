@@ -105,7 +105,7 @@ class Session:
             history = self._next(message)
             told = shown_as(history)
         except (InputError, ArithmeticError) as error:
-            # Numbers whose products are none: nobody means them, and they are told as such.
+            # Numbers whose products are not finite are reported as a mistake.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
             path = message.get("path") if isinstance(message.get("path"), str) else None
             refused = {"refused": words, "path": path, "n": number}
@@ -223,7 +223,7 @@ class Session:
         InputError
             If the computation takes too long, or if a number of the rig is not finite.
         """
-        # When it was first told of: what is compiled before is not counted.
+        # Time of the first report of progress: what is compiled before is not counted.
         begun: float | None = None
         # A coarse picture is worth its milliseconds, or a knob that is turned fast would show none.
         patience = 0.0 if stage.long else _PATIENCE

@@ -3,24 +3,59 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.stops import of_stop, over_stops, plain_values
+from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.earthquakes.free_vibration import settles
 from vibroimpact.earthquakes.peak_demands import ENERGIES
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
-from vibroimpact.facts.tables import sheet
+from vibroimpact.facts.tables import Row, sheet_of, values_text
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unit, unitless
+
+
+class _Shaken(NamedTuple):
+    """A rig, its record and its response."""
+
+    record: Record
+    response: xr.Dataset
+    rig: Oscillator
+
+
+_ROWS = (
+    Row(
+        "peak of the base",
+        lambda of: _acceleration(of.record.peak),
+        remark=lambda of: (
+            f"at {plain(of.record.peak_time, 6)}{unit(' s')} of "
+            f"{plain(of.record.duration, 6)}{unit(' s')}"
+        ),
+    ),
+    Row("displacement", lambda of: _reaches(of.response)),
+    Row(
+        "acceleration",
+        lambda of: _acceleration(float(of.response["peak_acceleration"])),
+        remark=lambda of: _ratio(of),
+    ),
+    Row(
+        "contact force",
+        "peak_force",
+        remark=lambda of: f"impulse {values_text(of.response, 'impulse')}",
+        shown=lambda of: _has_contacts(of),
+    ),
+    Row("contacts", "impact_count", shown=lambda of: _has_contacts(of)),
+    Row("energy supplied", ENERGIES[0], like=ENERGIES, remark=lambda of: _lost(of)),
+    Row("resting position", "residual_displacement", 6, remark=lambda of: _unsettled(of)),
+)
 
 
 def together(responses: Mapping[str, xr.Dataset]) -> xr.Dataset:
@@ -55,48 +90,40 @@ def text(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> RenderableType:
     """Return a response as a table and a sentence."""
-    size = float(response["peak_acceleration"])
-    ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
-    energies = [float(response[key]) for key in ENERGIES]
-    supplied, isolator, stops = (written(ENERGIES[0], one, like=energies) for one in energies)
-    lost = f"lost: {isolator} in the isolator" + (f", {stops} in the stops" if rig.stops else "")
-    rest, swing = float(response["residual_displacement"]), float(response["residual_swing"])
-    still = abs(swing) <= 1e-5 * float(response["peak_displacement"])
-    rows = [
-        (
-            "peak of the base",
-            _acceleration(record.peak),
-            f"at {plain(record.peak_time, 6)}{unit(' s')} of "
-            f"{plain(record.duration, 6)}{unit(' s')}",
-        ),
-        ("displacement", _both("displacement", [_reach(response, side) for side in SIDES])),
-        ("acceleration", _acceleration(size), ratio),
-        *(
-            _contacts(response)
-            if response["impact_count"].any() or response["impulse"].any()
-            else ()
-        ),
-        ("energy supplied", supplied, lost),
-        ("resting position", pretty(rest, LENGTH), _unsettled(rig, swing, still)),
-    ]
-    return Group(Text(name, style="bold"), sheet(rows), Text(sentence(response, rig, free)))
+    rows = sheet_of(response, _ROWS, _Shaken(record, response, rig))
+    return Group(Text(name, style="bold"), rows, Text(sentence(response, rig, free)))
 
 
-def _contacts(response: xr.Dataset) -> Iterator[tuple[str, ...]]:
-    force, impulse, counts = (
-        [float(of_stop(response, name, side)) for side in SIDES]
-        for name in ("peak_force", "impulse", "impact_count")
-    )
-    impulses = f"impulse {_both('impulse', impulse)}"
-    yield "contact force", _both("peak_force", force), impulses
-    yield "contacts", _both("impact_count", counts)
+def _reaches(response: xr.Dataset) -> str:
+    """Return how far the mass goes to both sides, in one unit."""
+    values = [_reach(response, side) for side in SIDES]
+    parts = (written("displacement", one, like=values) for one in values)
+    return ", ".join(f"{part} {side}" for part, side in zip(parts, SIDES, strict=True))
 
 
-def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
+def _ratio(of: _Shaken) -> str:
+    """Return the acceleration as a multiple of that of the base."""
+    peak = of.record.peak
+    size = float(of.response["peak_acceleration"])
+    return f"{plain(size / peak, 4)} times that of the base" if peak else ""
+
+
+def _has_contacts(of: _Shaken) -> bool:
+    return bool(of.response["impact_count"].any() or of.response["impulse"].any())
+
+
+def _lost(of: _Shaken) -> str:
+    """Return the energies that are lost."""
+    _, isolator, stops = (values_text(of.response, one, like=ENERGIES) for one in ENERGIES)
+    return f"lost: {isolator} in the isolator" + (f", {stops} in the stops" if of.rig.stops else "")
+
+
+def _unsettled(of: _Shaken) -> str:
     """Return a remark for a mass that does not come to rest, or may not."""
-    if not is_still:
+    swing = float(of.response["residual_swing"])
+    if not abs(swing) <= 1e-5 * float(of.response["peak_displacement"]):
         return f"still swinging by ±{pretty(swing, LENGTH)}"
-    if rig.isolator.damping == 0.0 and not settles(rig):
+    if of.rig.isolator.damping == 0.0 and not settles(of.rig):
         return (
             "not settled: the isolator has no damping, so the mass may swing about this position "
             "indefinitely"
@@ -167,11 +194,3 @@ def _reach(response: xr.Dataset, side: str) -> float:
     if side == "right":
         return float(response["displacement_max"])
     return 0.0 - float(response["displacement_min"])
-
-
-def _both(name: str, values: list[float]) -> str:
-    """Return the values of both sides in one unit; 0 without a stop."""
-    parts = [
-        f"{written(name, one, like=values)} {side}" for one, side in zip(values, SIDES, strict=True)
-    ]
-    return ", ".join(parts)

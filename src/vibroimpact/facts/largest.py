@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -19,19 +19,30 @@ from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.units import plain
 
 _SAME = 1e-9
-_WORDS = {
-    "displacement_max": "displacement to the right",
-    "displacement_min": "displacement to the left",
-    "peak_acceleration": "absolute acceleration",
-    "peak_transmitted_force": "transmitted force",
-    "transmissibility": "transmissibility",
-    **{f"peak_force.{side}": f"force of the {side} stop" for side in SIDES},
-    **{f"peak_impulse.{side}": f"impulse of the {side} stop" for side in SIDES},
-}
-_SIGNS = {"displacement_min": -1.0}
-"""Signs in these words."""
-_UNDER_A_FORCE = ("peak_transmitted_force", "transmissibility")
-"""If the base moves, they are in proportion to the absolute acceleration."""
+
+
+class _Line(NamedTuple):
+    """A line of the table."""
+
+    words: str
+    quantity: str
+    sign: float = 1.0
+    """Sign of the quantity in these words."""
+    under_a_force: bool = False
+    """Whether it is written only if a force shakes the mass: if the base moves, it is in proportion
+    to the absolute acceleration."""
+
+
+_LINES = (
+    _Line("displacement to the right", "displacement_max"),
+    _Line("displacement to the left", "displacement_min", -1.0),
+    _Line("absolute acceleration", "peak_acceleration"),
+    _Line("transmitted force", "peak_transmitted_force", under_a_force=True),
+    _Line("transmissibility", "transmissibility", under_a_force=True),
+    *(_Line(f"force of the {side} stop", f"peak_force.{side}") for side in SIDES),
+    *(_Line(f"impulse of the {side} stop", f"peak_impulse.{side}") for side in SIDES),
+)
+_OF = {one.quantity: one for one in _LINES}
 _COLUMNS = (Column("", "words", left=True), Column("", "size"), Column("", "at", left=True))
 
 
@@ -65,13 +76,11 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     added. A rigid stop that is struck has an impulse, and no finite force. Own outputs have their
     names.
     """
-    known = set(quantities(data))
-    if not base_at_rest(data):
-        known.difference_update(_UNDER_A_FORCE)
-    own = own_outputs(data)
+    known, at_rest, own = set(quantities(data)), base_at_rest(data), own_outputs(data)
+    lines = [one for one in _LINES if one.quantity in known and (at_rest or not one.under_a_force)]
     found: dict[str, Any] = {}
-    for name in [*filter(known.__contains__, _WORDS), *own]:
-        one = largest(quantity(data, name), _SIGNS.get(name, 1.0))
+    for name, sign in [*((one.quantity, one.sign) for one in lines), *((one, 1.0) for one in own)]:
+        one = largest(quantity(data, name), sign)
         of_stop = name not in own and "." in name
         if one and (not of_stop or 0.0 < one["value"] < math.inf):
             found[name] = one
@@ -86,9 +95,9 @@ def text(data: xr.Dataset) -> RenderableType:
 
 def _row(data: xr.Dataset, name: str, one: Mapping[str, Any]) -> dict[str, str]:
     value = one["value"]
-    if name in _WORDS:
-        size = written(name.partition(".")[0], _SIGNS.get(name, 1.0) * value + 0.0)
-        return {"words": _WORDS[name], "size": size}
+    if name in _OF:
+        size = written(name.partition(".")[0], _OF[name].sign * value + 0.0)
+        return {"words": _OF[name].words, "size": size}
     about = data[name].attrs
     units = about["units"].removeprefix("1")
     return {"words": about["long_name"], "size": f"{plain(value, 4)} {units}".strip()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import xarray as xr
@@ -10,45 +11,24 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.datasets.description import base_at_rest, noted, stop_word
-from vibroimpact.datasets.stops import of_stop, plain_values
+from vibroimpact.datasets.stops import plain_values
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
-from vibroimpact.facts.tables import Column, sheet, table_of, values_along
+from vibroimpact.facts.tables import (
+    Column,
+    Row,
+    sheet_of,
+    table_of,
+    values_along,
+    values_text,
+)
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.oscillator import SIDES
-from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 from vibroimpact.response.plausibility import STIFF
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
 
-_KNOWN = (
-    "motion",
-    "period",
-    "stable",
-    "antisymmetric",
-    "displacement_max",
-    "displacement_min",
-    "displacement_excursion",
-    "acceleration_max",
-    "acceleration_min",
-    "acceleration_excursion",
-    "transmitted_force_max",
-    "transmitted_force_min",
-    "transmitted_force_excursion",
-    "transmissibility",
-    "eccentricity",
-    "impacts",
-    "energy_supplied",
-    "energy_isolator",
-    "energy_bumpers",
-    "effective_damping",
-    "cycles",
-    "exponents_cycles",
-    "mirror_pair",
-)
-"""Numbers of a motion that `_motion` writes in rows of its own, or leaves to the JSON output."""
 _STATUS = ("status", "mirror_distance")
 
 _SPEEDS = ("contact_start_velocity", "contact_end_velocity")
@@ -64,6 +44,46 @@ _CONTACTS = (
     Column("lost", "contact_dissipated", 3),
     Column("e (–)", "contact_restitution", "{:.3f}"),
 )
+
+_ENDS = ("displacement_min", "displacement_max")
+_FORCES = ("transmitted_force_min", "transmitted_force_max")
+_ENERGIES = ("energy_supplied", "energy_bumpers")
+_ROWS = (
+    Row("evidence", lambda data: str(data.attrs["evidence"])),
+    Row("note", lambda data: _slow(data), shown=lambda data: _slow(data)),
+    Row("exponents", lambda data: _exponents(data), of=("exponents_cycles",)),
+    Row("displacement", _ENDS, 5),
+    Row("eccentricity", "eccentricity", like=_ENDS),
+    Row("acceleration", ("acceleration_min", "acceleration_max"), 5, words="{} (absolute)"),
+    Row(  # if the base moves, it is in proportion to the absolute acceleration
+        "transmitted force",
+        lambda data: _force(data),
+        shown=base_at_rest,
+        of=(*_FORCES, "transmissibility"),
+    ),
+    Row("impacts", lambda data: _impacts(data), of=("impacts",)),
+)
+"""Rows of a motion. Other numbers of it, which no row has, follow before `_LAST_ROWS`."""
+_LAST_ROWS = (
+    Row("energy", lambda data: _energy(data), of=_ENERGIES),
+    Row(
+        "reached from",
+        lambda data: str(data.attrs["starts"]),
+        shown=lambda data: data.attrs.get("starts"),
+    ),
+    Row(
+        "mirror image",
+        lambda data: str(data.attrs["mirrored_starts"]),
+        words="reached from {}",
+        shown=lambda data: data.attrs.get("mirrored_starts"),
+    ),
+)
+_UNWRITTEN = (
+    *("motion", "period", "stable", "antisymmetric", "mirror_pair"),  # in the heading
+    *("displacement_excursion", "acceleration_excursion", "transmitted_force_excursion"),
+    *("energy_isolator", "effective_damping", "cycles"),
+)
+"""Numbers of a motion that no row has, and that are only in the JSON output."""
 
 _STABILITY = {1: "stable", 0: "unstable", -1: "neutral (disturbances neither grow nor decay)"}
 
@@ -112,8 +132,7 @@ def _only(motions: dict[str, xr.Dataset]) -> str:
 
 
 def _facts(data: xr.Dataset) -> dict[str, Any]:
-    scalars = [*(name for name in _KNOWN if name in data), *_others(data)]
-    values: dict[str, Any] = {name: plain_values(data[name]) for name in scalars}
+    values: dict[str, Any] = {name: plain_values(data[name]) for name in _numbers(data)}
     values["exponents"] = data["exponents"].values.tolist()
     values["exponents_uncertainty"] = data["exponents_uncertainty"].values.tolist()
     values |= {**status_facts(data), "evidence": data.attrs["evidence"]}
@@ -123,12 +142,12 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     return values
 
 
-def _others(data: xr.Dataset) -> list[str]:
-    """Return the other numbers of a motion, by stop or of the whole motion."""
+def _numbers(data: xr.Dataset) -> list[str]:
+    """Return the numbers of a motion, by stop or of the whole motion."""
     return [
         str(name)
         for name, values in data.data_vars.items()
-        if set(values.dims) <= {"stop"} and name not in (*_KNOWN, *_STATUS)
+        if set(values.dims) <= {"stop"} and name not in _STATUS
     ]
 
 
@@ -160,40 +179,36 @@ def _kind(data: xr.Dataset) -> list[str]:
 
 
 def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
-    def of(*names: str, digits: int = 5, like: tuple[str, ...] = ()) -> str:
-        ends, sizes = ([data[one].item() for one in some] for some in (names, like))
-        return written(names[0], *ends, digits=digits, like=sizes)
-
-    ends = ("displacement_min", "displacement_max")
-    energies = ("energy_supplied", "energy_bumpers")
-    supplied, lost = (of(one, digits=4, like=energies) for one in energies)
-    forces = of("transmitted_force_min", "transmitted_force_max")
-    impacts = [of_stop(data, "impacts", side).item() for side in SIDES]
-    rows = [
-        ("evidence", data.attrs["evidence"]),
-        *(("note", line) for line in noted(data) if line.startswith(STIFF)),
-        ("exponents", _exponents(data)),
-        ("displacement", of(*ends)),
-        ("eccentricity", of("eccentricity", digits=4, like=ends)),
-        ("acceleration", f"{of('acceleration_min', 'acceleration_max')} (absolute)"),
-        # If the base moves, the force on it is in proportion to the absolute acceleration.
-        ("transmitted force", f"{forces}, transmissibility {of('transmissibility', digits=4)}")
-        if base_at_rest(data)
-        else (),
-        (
-            "impacts",
-            ", ".join(f"{plain(n, 4)} {side}" for n, side in zip(impacts, SIDES, strict=True))
-            + f" per cycle{_pressed(data)}",
-        ),
-        *((name.replace("_", " "), _by_stop(data, name)) for name in _others(data)),
-        ("energy", f"{supplied} per cycle, {lost} of it lost in the {stop_word(data)}s"),
-        ("reached from", data.attrs["starts"]) if data.attrs.get("starts") else (),
-        ("mirror image", f"reached from {data.attrs['mirrored_starts']}")
-        if data.attrs.get("mirrored_starts")
-        else (),
+    written_ones = {one for row in (*_ROWS, *_LAST_ROWS) for one in row.variables}
+    others = [
+        Row(one.replace("_", " "), partial(_by_stop, name=one))
+        for one in _numbers(data)
+        if one not in written_ones and one not in _UNWRITTEN
     ]
     heading = Text(f"{name}: {', '.join(_kind(data))}", style="bold")
-    return [heading, sheet(filter(None, rows)), contact_table(data)]
+    return [heading, sheet_of(data, (*_ROWS, *others, *_LAST_ROWS)), contact_table(data)]
+
+
+def _slow(data: xr.Dataset) -> str:
+    """Return the notes on stops that make the computation slow, a line each."""
+    return "\n".join(line for line in noted(data) if line.startswith(STIFF))
+
+
+def _force(data: xr.Dataset) -> str:
+    """Return the force on the base, and its ratio to the exciting force."""
+    forces = values_text(data, _FORCES, digits=5)
+    return f"{forces}, transmissibility {values_text(data, 'transmissibility')}"
+
+
+def _impacts(data: xr.Dataset) -> str:
+    """Return the impacts per cycle, and a remark on stops that the mass never leaves."""
+    return f"{values_text(data, 'impacts')} per cycle{_pressed(data)}"
+
+
+def _energy(data: xr.Dataset) -> str:
+    """Return the energy that is supplied, and what of it is lost in the stops."""
+    supplied, lost = (values_text(data, one, like=_ENERGIES) for one in _ENERGIES)
+    return f"{supplied} per cycle, {lost} of it lost in the {stop_word(data)}s"
 
 
 def _pressed(data: xr.Dataset) -> str:

@@ -10,10 +10,11 @@ import xarray as xr
 from rich.console import Console, RenderableType
 from rich.table import Table
 
-from vibroimpact.datasets.stops import plain_values
+from vibroimpact.datasets.stops import of_stop, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import printable
-from vibroimpact.facts.number_format import heading
+from vibroimpact.facts.number_format import heading, written
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import Scale
 from vibroimpact.model.units import plain
 
@@ -88,6 +89,67 @@ def table_of(
     for row in zip(*texts, strict=True):
         table.add_row(*row)
     return table
+
+
+class Row(NamedTuple):
+    """A row of a sheet about a dataset: its name, its values, and a remark."""
+
+    name: str
+    value: str | tuple[str, str] | Callable[[Any], str]
+    """Name of a variable, names of both ends of a range, or a function of the dataset. A variable
+    with the dim ``stop`` is written for both sides, 0 without a stop."""
+    digits: int = 4
+    """Significant digits of a number."""
+    like: tuple[str, ...] = ()
+    """Variables that choose the size of the unit. Default: those of the row."""
+    words: str = "{}"
+    """Words around the values."""
+    remark: Callable[[Any], str] = lambda _: ""
+    """Remark, in a column of its own."""
+    shown: Callable[[Any], Any] = lambda _: True
+    """Whether there is such a row."""
+    of: tuple[str, ...] = ()
+    """Variables that functions of the row write."""
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables of the row."""
+        if callable(self.value):
+            return self.of
+        return (*((self.value,) if isinstance(self.value, str) else self.value), *self.of)
+
+    def texts(self, data: xr.Dataset, whole: Any) -> tuple[str, ...]:
+        """Return the name, the values and the remark. `whole` is what functions get."""
+        text = (
+            self.value(whole)
+            if callable(self.value)
+            else values_text(data, self.value, digits=self.digits, like=self.like)
+        )
+        remark = self.remark(whole)
+        return self.name, self.words.format(text), *([remark] if remark else [])
+
+
+def values_text(
+    data: xr.Dataset,
+    names: str | tuple[str, str],
+    *,
+    digits: int = 4,
+    like: Iterable[str] = (),
+) -> str:
+    """Return a value of a dataset, that of both sides, or both ends of a range, with the unit."""
+    if isinstance(names, str) and "stop" in data[names].dims:
+        values = [of_stop(data, names, side).item() for side in SIDES]
+        parts = (written(names, one, digits=digits, like=values) for one in values)
+        return ", ".join(f"{part} {side}" for part, side in zip(parts, SIDES, strict=True))
+    ends = (names,) if isinstance(names, str) else names
+    sizes = [data[one].item() for one in like]
+    return written(ends[0], *(data[one].item() for one in ends), digits=digits, like=sizes)
+
+
+def sheet_of(data: xr.Dataset, rows: Iterable[Row], whole: Any = None) -> Table:
+    """Return the sheet of declared rows, whose functions get `whole`; default: the dataset."""
+    whole = data if whole is None else whole
+    return sheet(one.texts(data, whole) for one in rows if one.shown(whole))
 
 
 def sheet(rows: Iterable[tuple[str, ...]]) -> Table:

@@ -65,7 +65,8 @@ def text(data: xr.Dataset) -> RenderableType:
     """Return the same as lines."""
     found = facts(data)
     state, contacts = found["final_state"], found["contacts"]
-    touching = {1: "right stop", -1: "left stop", 0: "none", 2: "both stops"}[int(state["contact"])]
+    touched = [f"{side} stop" for side in SIDES if state[f"touching.{side}"]]
+    touching = "both stops" if len(touched) == 2 else "".join(touched) or "none"
     rows = [
         *((name, written(name, state[name], digits=6)) for name in ("displacement", "velocity")),
         *(

@@ -203,7 +203,7 @@ def _on_panel(
     if (largest := _largest(measured, kind)) is not None:
         x, y = points_of(largest)
         return x, factor * y
-    if f"{kind}_excursion" in measured:  # half of it, as `halves_of` tells the curves
+    if f"{kind}_excursion" in measured:  # half of it, as `halves_of` scales the curves
         x, y = points_of(measured[f"{kind}_excursion"])
         return x, 0.5 * factor * y
     return None

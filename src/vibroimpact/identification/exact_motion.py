@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, record_forcing
-from vibroimpact.engine.observers import record as observed
+from vibroimpact.engine.one_mass import record as observed
 from vibroimpact.engine.status import DONE
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig

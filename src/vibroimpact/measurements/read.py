@@ -23,6 +23,7 @@ from vibroimpact.measurements.histories import history
 from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, meaning
 from vibroimpact.measurements.sampling import timed
 from vibroimpact.measurements.scaling import completed, is_channel
+from vibroimpact.model.public import public
 from vibroimpact.tables.decimal_mark import Decimal, checked
 from vibroimpact.tables.file import File
 from vibroimpact.tables.limits import regular
@@ -41,6 +42,7 @@ CALL = "the call"
 CREATED_BY = "vibroimpact.read_measurement"
 
 
+@public
 def read_measurement(
     path: Path | str,
     *,

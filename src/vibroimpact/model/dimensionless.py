@@ -194,6 +194,7 @@ class Dimensionless(Model):
         return Rig(free.replace(right=stop(self.right), left=stop(self.left)), a)
 
 
+@public
 def from_dimensionless(
     stiffness_ratio: PerSide,
     gap: PerSide,

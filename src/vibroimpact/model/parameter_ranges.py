@@ -89,9 +89,33 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
     examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
     given = _given(vary, "ranges", examples, least, most)
     return [
-        _range(varied, span, field_of(name))
+        read_range(varied, span, field_of(name))
         for (name, span), varied in zip(given.items(), _parameters(given, rig), strict=True)
     ]
+
+
+def read_range(varied: Parameter, span: object, field: str, *, positive: bool = False) -> Range:
+    """Read the range of a parameter, a pair.
+
+    Parameters
+    ----------
+    varied
+        The parameter.
+    span
+        The argument.
+    field
+        Its name in messages.
+    positive
+        Whether the values must be greater than 0, as for logarithmic spacing.
+
+    Raises
+    ------
+    InputError
+        If it is not a pair in rising order, or if a value is invalid.
+    """
+    bounds = _bounds(varied, positive)
+    low, high = read_span(span, varied.quantity, field, f"value of {varied.name}", **bounds)
+    return Range(varied, low, high, field)
 
 
 def read_values(
@@ -194,17 +218,17 @@ def _parameters(given: Mapping[str, Any], rig: Rig | System) -> list[Parameter]:
     return list(found.values())
 
 
-def _range(varied: Parameter, span: object, field: str) -> Range:
-    bounds = {"minimum": varied.least, "maximum": varied.most}
-    low, high = read_span(span, varied.quantity, field, f"value of {varied.name}", **bounds)
-    return Range(varied, low, high, field)
+def _bounds(varied: Parameter, positive: bool = False) -> dict[str, float | None]:
+    """Return the bounds of the values of a parameter, as `to_si` accepts them."""
+    if positive or not varied.zero:
+        return {"above": 0.0, "maximum": varied.most}
+    return {"minimum": varied.least, "maximum": varied.most}
 
 
 def _values(varied: Parameter, values: object, field: str, longest: int) -> Varied:
     items = check_list(values, field, longest, f"a list of values of {varied.name}")
-    limits: dict[str, Any] = {"minimum": varied.least} if varied.zero else {"above": 0.0}
     numbers = [
-        to_si(value, varied.quantity, f"{field}[{i}]", **limits, maximum=varied.most)
+        to_si(value, varied.quantity, f"{field}[{i}]", **_bounds(varied))
         for i, value in enumerate(items)
     ]
     if not numbers:

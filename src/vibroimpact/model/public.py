@@ -38,7 +38,7 @@ def public(function: Callable[_P, _R]) -> Callable[_P, _R]:
       it has no units, values with a unit are refused.
     """
     signature = inspect.signature(function)
-    first = next(iter(signature.parameters))
+    first = next(iter(signature.parameters), "")
 
     @cache
     def checks() -> dict[str, _Check]:

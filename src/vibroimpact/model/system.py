@@ -37,6 +37,7 @@ class System(Model):
     - ``stops``, ``stop_laws``, ``counted_stops``: the stops that exist, by name, with their laws;
       and the names of those for which the engine has numbers.
     - ``part_names``: the names of its parts as coordinates of datasets.
+    - ``assumptions``: what was assumed to read it, which parameters and notes of results state.
     - ``angular_frequency``, ``linear``: the lowest natural frequency, and the kind of its motion.
     - ``_acted_on_by``: an excitation, checked, with the mass on which it acts.
     - ``rows``, ``_picture``: its values as text, and a picture.
@@ -73,6 +74,11 @@ class System(Model):
     @abstractmethod
     def part_names(self) -> PartNames:
         """Names of the parts by the dims of datasets."""
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What was assumed to read the system, one line each."""
+        return ()
 
     @property
     @abstractmethod

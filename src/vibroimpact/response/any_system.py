@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.stops import by_stop
-from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
+from vibroimpact.engine.state import FIRST, FRESH, MODE, Parts
 from vibroimpact.engine.status import Status
 from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.rig import Rig
@@ -47,18 +47,23 @@ class AnySystem(ABC):
         """Number of memories of isolators or links that a state has."""
 
     @property
+    def places(self) -> Parts:
+        """Where the parts stand: displacements, velocities, deformations, memories of links."""
+        return Parts(self.masses, self.stops, self.memories)
+
+    @property
     def parts(self) -> int:
-        """Number of parts: displacements, velocities, deformations, memories of isolators."""
-        return 2 * self.masses + self.stops + self.memories
+        """Number of parts."""
+        return self.places.total
 
     @property
     def width(self) -> int:
         """Length of a vector, without the clock."""
-        return FIRST + self.parts + BEHIND - 2
+        return self.places.width
 
     @property
     def signs(self) -> _Array:
-        """Signs of the parts of a point: of the left deformation of an oscillator it is −1."""
+        """Signs of the parts of a point: its left deformation is negative when compressed."""
         return np.ones(self.parts)
 
     def check_size(self) -> None:  # noqa: B027
@@ -99,9 +104,9 @@ class AnySystem(ABC):
 
     def velocities(self) -> NDArray[np.bool_]:
         """Which parts are velocities."""
-        n = self.masses
-        places = np.arange(self.parts)
-        found: NDArray[np.bool_] = (places >= n) & (places < 2 * n)
+        places = self.places.of_point
+        found = np.zeros(places.total, dtype=bool)
+        found[places.velocity() : places.deformation(0)] = True
         return found
 
     def event_doubts(
@@ -109,6 +114,10 @@ class AnySystem(ABC):
     ) -> tuple[dict[str, Any], list[str]]:
         """Return a count of the impacts that were ordered by a rule, and notes about events."""
         return {}, []
+
+    def cause_of_events(self, events: list[_Array], section: int) -> str:
+        """Describe which parts cause too many events in a section; may be empty."""
+        return ""
 
     def doubts_of_rows(self, rows: _Array, what: str) -> list[str]:
         """Return notes about measured rows: what was decided by a rule, or was not decided."""
@@ -128,9 +137,10 @@ class AnySystem(ABC):
 
     def section_variables(self, points: _Array, dims: Dims) -> dict[str, Any]:
         """Return points of a section, shape (*dims, part), as variables."""
-        n = self.masses
-        u, v, d = np.split(points[..., : 2 * n + self.stops], [n, 2 * n], axis=-1)
-        d = self._deformed(d * self.signs[2 * n : 2 * n + self.stops])
+        places = self.places.of_point
+        bounds = [places.velocity(), places.deformation(0), places.memory()]
+        u, v, d, _ = np.split(points[..., : places.total] * self.signs, bounds, axis=-1)
+        d = self._deformed(d)
         return {
             "section_displacement": self.of_masses(dims, u),
             "section_velocity": self.of_masses(dims, v),

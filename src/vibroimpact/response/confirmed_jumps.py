@@ -1,4 +1,4 @@
-"""Tells jumps from steps of a smooth curve that the frequencies of a sweep do not resolve.
+"""Distinguish jumps from steps of a smooth curve that the frequencies of a sweep do not resolve.
 
 Where the directions differ there are two motions, and one of them ends. The interval of any other
 step is swept again in smaller steps, from the motion before it, and so is what is still large of
@@ -104,10 +104,10 @@ def _kind(
     settled: bool,
     curves: Sequence[tuple[str, str | None]],
 ) -> Kind:
-    """Tell what the step of some curves is: variables, each with its mass if there are several.
+    """Classify the step of some curves: variables, each with its mass if there are several.
 
-    The largest values of a motion that does not settle depend on the window, so no holds between
-    would tell.
+    The largest values of a motion that does not settle depend on the window, so holds between
+    would decide nothing.
     """
     if not settled:
         return "steep"

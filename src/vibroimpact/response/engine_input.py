@@ -11,11 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
-from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
+from vibroimpact.engine.state import FLIGHT, FRESH, MODE, ONE_MASS
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import (
     AssemblyState,
@@ -32,22 +30,24 @@ TOUCHING = 1e-12
 
 _COLUMNS = np.array(
     [
-        layout.U,
-        layout.V,
-        layout.RIGHT_BUMPER,
-        layout.LEFT_BUMPER,
-        layout.MODE,
-        layout.MODE,
-        layout.ISOLATOR,
+        ONE_MASS.displacement(),
+        ONE_MASS.velocity(),
+        *(ONE_MASS.deformation(stop) for stop in range(ONE_MASS.stops)),
+        MODE,
+        *(MODE for _ in range(ONE_MASS.stops)),
+        ONE_MASS.memory(),
     ]
 )
 """Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode states the
-contact."""
-_TOUCHING = np.array(record.TOUCHING)
+contacts."""
+CONTACTS = (0, 1, -1, 2)
+"""`State.contact` by the engine's mode: none, right, left, both."""
 _SIDES = {-1: "left", 1: "right"}
 _SIGNS = {"right": 1, "left": -1}
-_CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
+_IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
+_TOUCHED = {(False, False): 0, (True, False): 1, (False, True): -1, (True, True): 2}
+"""The same by whether the right and the left stop are touched."""
 
 
 def oscillator_numbers(oscillator: Oscillator, shaking: Repeated | Record) -> NDArray[np.float64]:
@@ -159,27 +159,28 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
             touches, deformation = _on_bumper(law, sign, state, reach, slack, said, sign * v)
-        bit = RIGHT if sign == 1 else LEFT
+        bit = 1 << i
         if touches:
             mode |= bit
         elif abs(reach - deformation) <= slack and _parts(stop, deformation, sign * v):
             parted |= bit
         deformations[i] = deformation
-    if mode == BOTH and not _overlap(oscillator):
+    if mode.bit_count() > 1 and not _overlap(oscillator):
         mode = _deeper(oscillator, u, v)
-    vector = np.zeros(layout.STATE)
-    vector[layout.MODE] = mode
+    vector = np.zeros(ONE_MASS.width)
+    vector[MODE] = mode
     # What touches begins to. A stop that the mass leaves is not met again by rounding.
-    vector[layout.FRESH] = parted if parted in (RIGHT, LEFT) else mode
-    vector[layout.U], vector[layout.V] = u, v
-    vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
-    vector[layout.ISOLATOR] = state.isolator
+    vector[FRESH] = parted if parted.bit_count() == 1 else mode
+    vector[ONE_MASS.displacement()], vector[ONE_MASS.velocity()] = u, v
+    for stop, deformation in enumerate(deformations):
+        vector[ONE_MASS.deformation(stop)] = deformation
+    vector[ONE_MASS.memory()] = state.isolator
     return vector
 
 
 def _claim(state: State) -> str:
     """Return the contact of a state, with which a message begins."""
-    return f"start.contact: {state.contact} ({_CONTACTS[state.contact or 0]})"
+    return f"start.contact: {state.contact} ({_IN_WORDS[state.contact or 0]})"
 
 
 def _overlap(oscillator: Oscillator) -> bool:
@@ -188,14 +189,14 @@ def _overlap(oscillator: Oscillator) -> bool:
 
 
 def _deeper(oscillator: Oscillator, u: float, v: float) -> int:
-    """Return the side that is pressed where both stops begin at one place.
+    """Return the mode in which the stop is pressed that is deeper where both begin at one place.
 
     Both are touched to within rounding there, and the engine has no motion that presses both.
     """
     assert oscillator.right is not None
     assert oscillator.left is not None
     right, left = u - oscillator.right.gap, -u - oscillator.left.gap
-    return RIGHT if (right, v) >= (left, -v) else LEFT
+    return 1 << (0 if (right, v) >= (left, -v) else 1)
 
 
 def _parts(stop: Stop, deformation: float, closing: float) -> bool:
@@ -314,12 +315,11 @@ def _on_bumper(
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
     found: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
-    right, left, angle, contact = (found[..., i] for i in range(2, 6))
+    deformations, angle, touching = found[..., 2:4], found[..., 4], found[..., 5:7]
     # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
-    np.maximum(right, 0.0, out=right)
-    np.minimum(-left, 0.0, out=left)
+    np.maximum(deformations, 0.0, out=deformations)
     angle[...] = phase % (2.0 * math.pi)
-    contact[...] = _TOUCHING[contact.astype(np.int64)]
+    touching[...] = touching.astype(np.int64) >> np.arange(ONE_MASS.stops) & 1
     found += 0.0  # no negative zeros
     return found
 
@@ -337,10 +337,10 @@ def state_of(values: Sequence[float]) -> State:
 def _state_of(names: Sequence[str], values: Sequence[float]) -> State:
     parts: dict[str, Any] = dict(zip(names, values, strict=True))
     deformation = {
-        side: sign * parts.pop(name) + 0.0
-        for side, sign in _SIGNS.items()
-        if (name := f"deformation.{side}") in parts
+        side: parts.pop(name) for side in _SIGNS if (name := f"deformation.{side}") in parts
     }
-    if "contact" in parts:
-        parts["contact"] = int(parts["contact"])
+    touching = [parts.pop(name) for side in _SIGNS if (name := f"touching.{side}") in parts]
+    if len(touching) == len(_SIGNS):  # else the contact is deduced
+        right, left = touching
+        parts["contact"] = _TOUCHED[bool(right), bool(left)]
     return State(**parts, deformation=deformation)

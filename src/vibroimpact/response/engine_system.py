@@ -20,7 +20,8 @@ EngineSystem: TypeAlias = OneMass | SeveralMasses
 Both classes have these members, so that a function asks for them in the place of the kind of the
 system:
 
-- its size: ``masses``, ``stops``, ``memories``, ``parts``, ``width``, and the ``layout`` of phases;
+- its size: ``masses``, ``stops``, ``memories``, ``places``, ``parts``, ``width``, and the
+  ``layout`` of phases;
 - its numbers: ``numbers`` and ``section_numbers`` under a shaking, ``closing`` (displacements u
   close the stops by W u), ``largest_mass``, ``highest_frequency``, ``has_dashpot``,
   ``is_symmetric``, and ``partners``, the stop that is the mirror image of each;
@@ -28,7 +29,7 @@ system:
 - its states: ``read``, ``near``, ``vector_of``, ``motion_vector``, ``state``, ``point``,
   ``vector``, ``mirror_image``, and ``names`` and ``components`` in datasets;
 - what is written down of a motion: ``record_widths``, ``histories``, ``event_doubts``,
-  ``phase_rows``;
+  ``cause_of_events``, ``phase_rows``;
 - what is measured: ``measured``, ``doubts_of_rows``, ``judged``, ``ended``, ``of_masses``,
   ``section_variables``.
 """

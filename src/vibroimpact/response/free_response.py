@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold, orbit, section_map
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.rig import Rig
@@ -28,10 +28,12 @@ _Array = NDArray[np.float64]
 
 _LEAST, _MOST = 0.02, 4.0  # of the natural frequency, where resonance is looked for at first
 _WIDEST = 64.0
-_PARTS = np.array([layout.U, layout.V, layout.ISOLATOR])
+_PARTS, _POINT = (
+    np.array([parts.displacement(), parts.velocity(), parts.memory()])
+    for parts in (ONE_MASS, ONE_MASS.of_point)
+)
 """Of a state without stops, and where a point of the section's map holds them."""
-_POINT = np.array([0, 1, 4])
-_HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+_HELD = np.array([*[0.0] * ONE_MASS.total, 1.0])
 """Normal of the plane on which the frequency does not change."""
 _STABLE = 1.0 + 1e-9
 """Largest multiplier of an orbit on which a motion stays."""
@@ -67,8 +69,8 @@ class Held(NamedTuple):
     @property
     def size(self) -> float:
         """Of the displacement (m)."""
-        u, v = abs(float(self.state[layout.U])), abs(float(self.state[layout.V]))
-        return max(u, v / (math.tau * self.frequency))
+        u, v, _ = np.abs(self.state[_PARTS])
+        return max(float(u), float(v) / (math.tau * self.frequency))
 
 
 class Flight(NamedTuple):
@@ -119,9 +121,10 @@ class Flight(NamedTuple):
         system[section_map.FREQUENCY] = frequency
         size = Held(frequency, HoldRows.empty(), near).size
         scale = np.array([size, size * math.tau * frequency, size, size, size, 1.0])
-        point, facts = np.zeros(section_map.POINT), np.zeros(section_map.FACTS)
+        point = np.zeros(ONE_MASS.total + 1)
+        facts = np.zeros(section_map.CONTACTS + ONE_MASS.stops)
         point[_POINT] = near[_PARTS]
-        carried = np.zeros((section_map.PARAMETER, section_map.PARAMETER))
+        carried = np.zeros((ONE_MASS.total, ONE_MASS.total))
         outcome = orbit.correct(
             system,
             system,
@@ -135,7 +138,7 @@ class Flight(NamedTuple):
             point,
             facts,
             carried,
-            np.zeros(section_map.PARAMETER),
+            np.zeros(ONE_MASS.total),
         )
         if outcome != Status.DONE:
             return None
@@ -147,7 +150,7 @@ class Flight(NamedTuple):
         if outcome != Status.DONE:
             return None
         results[hold.PERIOD], results[hold.CYCLES], results[hold.OUTCOME] = 1, 0, Status.DONE
-        state = np.zeros(layout.STATE)
+        state = np.zeros(ONE_MASS.width)
         state[_PARTS] = point[_POINT]
         return Held(frequency, HoldRows(results), state)
 

@@ -10,13 +10,18 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.stops import by_stop, stop_names
 from vibroimpact.engine.assembly import record as several
-from vibroimpact.engine.motion import LEFT, RIGHT
-from vibroimpact.engine.observers import record
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
+from vibroimpact.engine.one_mass import record
 from vibroimpact.model import Assembly, Oscillator, Record, Repeated
 from vibroimpact.model.assembly import numbers
+from vibroimpact.model.unknown_keys import listed as words
 
 _Array = NDArray[np.float64]
+
+_FEW_EVENTS = 100
+"""Below which integration steps, not events, were too many."""
+_BUSY = 0.25
+"""Share of the events at the busiest stop that another one needs to be named."""
 
 
 class Written(NamedTuple):
@@ -45,11 +50,7 @@ class Written(NamedTuple):
 
 
 def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
-    """The samples; what the isolator remembers, if it does.
-
-    Deformations are positive when compressed. The engine has the opposite sign on the left, which
-    is changed in place, because long motions are not kept twice.
-    """
+    """The samples; what the isolator remembers, if it does."""
     rows = {
         "displacement": record.DISPLACEMENT,
         "velocity": record.VELOCITY,
@@ -57,17 +58,11 @@ def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
         **({"isolator_memory": record.MEMORY} if oscillator.isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    np.negative(out[record.LEFT_FACE], out=out[record.LEFT_FACE])
-    out[record.LEFT_FACE] += 0.0  # no -0.0
-    faces = slice(record.RIGHT_FACE, record.LEFT_FACE + 1)
-    apart = slice(record.RIGHT_CLEARANCE, record.LEFT_CLEARANCE + 1)
-    touched = out[record.CONTACT]
-    both = touched == record.TOUCHING[RIGHT | LEFT]
-    touching = [both | (touched == record.TOUCHING[side]) for side in (RIGHT, LEFT)]
+    mode = out[record.TOUCHED].astype(np.int8)[:, np.newaxis]
     by_side = {
-        "deformation": out[faces].T,
-        "clearance": out[apart].T,
-        "touching": np.column_stack(touching),
+        "deformation": out[record.DEFORMATION : record.DEFORMATION + record.STOPS].T,
+        "clearance": out[record.CLEARANCE : record.CLEARANCE + record.STOPS].T,
+        "touching": mode >> np.arange(record.STOPS, dtype=np.int8) & 1 > 0,
     }
     return samples | {
         name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
@@ -126,10 +121,12 @@ def listed(parts: list[_Array], period: float, oscillator: Oscillator) -> dict[s
         return np.concatenate([part[:, at] for part in parts])
 
     time = column(record.E_CYCLE) * period + column(record.E_TIME)
-    deformation = np.column_stack([column(record.E_RIGHT), 0.0 - column(record.E_LEFT)])
+    deformation = np.column_stack(
+        [column(record.E_DEFORMATION + stop) + 0.0 for stop in range(record.STOPS)]
+    )
     return {
         "event_time": ("event", time),
-        "event_stop": ("event", stop_names(column(record.E_SIDE))),
+        "event_stop": ("event", stop_names(column(record.E_STOP))),
         "event_deformation": (("event", "stop"), by_stop(oscillator, deformation)),
         **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0
@@ -216,6 +213,37 @@ def _events(rows: _Array, assembly: Assembly) -> Iterator[_Event]:
         if rests:
             # The impact after which the bodies rest is followed by the rest.
             yield _Event(section, time, stop, CONTACT_BEGINS, u, behind)
+
+
+def busiest_by_mass(rows: _Array, section: int, assembly: Assembly) -> str:
+    """Describe which parts cause too many events or steps in a section; may be empty."""
+    own = rows[rows[:, several.E_CYCLE] == section]
+    counts = np.bincount(own[:, several.E_STOP].astype(np.int64), minlength=len(assembly.stops))
+    if len(own) < _FEW_EVENTS:
+        blunt = [
+            f"links.{name}.damping_exponent = {link.isolator.damping_exponent:g}"
+            for name, link in assembly.links.items()
+            if link.isolator.damping_exponent < 1.0
+        ]
+        return f"with {len(own)} events, check {words(blunt)}" if blunt else ""
+    names = [
+        name
+        for name, count in zip(assembly.stops, counts, strict=True)
+        if count >= _BUSY * counts.max()
+    ]
+    lossless = [
+        f"stops.{name}.restitution = 1"
+        for name in names
+        if getattr(assembly.stops[name].law, "restitution", None) == 1.0
+        and assembly.stops[name].stop.rigid
+    ]
+    found = f"most of these {len(own)} events are at {words(names)}"
+    if lossless:
+        found += (
+            f"; with {words(lossless)}, bodies that are pushed together bounce without end: "
+            "use a smaller value"
+        )
+    return found
 
 
 def doubts_by_mass(rows: _Array, undecided: bool, section: str) -> list[str]:

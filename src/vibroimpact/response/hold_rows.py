@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine.assembly import layout, measures
+from vibroimpact.engine.one_mass.extremes import by_stop
 from vibroimpact.engine.parameters import FORCING, MASSES
 from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import Status
@@ -107,19 +108,19 @@ class HoldRows:
     @property
     def impacts(self) -> _Array:
         """Contacts per forcing cycle with the right and the left stop, shape (..., 2)."""
-        found: _Array = self.array[..., [hold.HITS_RIGHT, hold.HITS_LEFT]]
+        found: _Array = self.array[..., by_stop(hold.HITS)]
         return found
 
     @property
     def peak_force(self) -> _Array:
         """Largest forces of the right and the left stop per unit mass (m/s²), shape (..., 2)."""
-        found: _Array = self.array[..., [hold.FORCE_RIGHT, hold.FORCE_LEFT]]
+        found: _Array = self.array[..., by_stop(hold.FORCE)]
         return found
 
     @property
     def peak_impulse(self) -> _Array:
         """Largest impulses on the right and the left rigid stop per unit mass (m/s), (..., 2)."""
-        found: _Array = self.array[..., [hold.IMPULSE_RIGHT, hold.IMPULSE_LEFT]]
+        found: _Array = self.array[..., by_stop(hold.IMPULSE)]
         return found
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xarray as xr
 
-from vibroimpact.datasets.description import describe
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyAssembly, as_assembly
 
@@ -63,4 +63,4 @@ def modes(rig: AnyAssembly) -> xr.Dataset:
     notes = [] if system.is_classically_damped else [_COUPLED]
     if not all(link.isolator.linear for link in system.links.values()):
         notes.append(_CURVED)
-    return describe(data, "vibroimpact.modes", {"assembly": system.model_dump()}, notes)
+    return describe(data, "vibroimpact.modes", system_parameters(system), notes)

@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_from
 from vibroimpact.engine import sections
-from vibroimpact.engine.assembly.layout import PARTS
-from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.phases import ONE_MASS, Layout
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.engine.phases import measure_motion
+from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, Repeated, validate
@@ -369,7 +368,7 @@ def phases(motion: xr.Dataset, origin: Origin) -> Phases:
     begin = course.state.copy()
     followed = course.again(motion)
     held = motion["displacement"].transpose(..., "time").values[..., -1]
-    at = slice(PARTS, PARTS + held.size) if held.ndim else U
+    at = slice(FIRST, FIRST + held.size) if held.ndim else FIRST
     apart = float(np.abs(course.state[at] - held).max())
     notes = doubts(motion, followed.status, apart)
     return Phases(origin.system, followed, begin, course.state, notes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.datasets.stops import by_stop
-from vibroimpact.engine.motion import U, mirror_image
-from vibroimpact.engine.observers import phases, record
-from vibroimpact.engine.observers.phases import ONE_MASS, Layout
+from vibroimpact.engine.observers import phases
+from vibroimpact.engine.observers.phases import Layout
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass.table import mirror_image
+from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Record, Repeated, equilibrium
 from vibroimpact.model.oscillator import SIDES
@@ -22,6 +24,7 @@ from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.any_system import AnyState, AnySystem, Dims
 from vibroimpact.response.assembly_rows import range_variables
 from vibroimpact.response.engine_input import (
+    CONTACTS,
     as_state,
     components,
     engine_state,
@@ -32,9 +35,6 @@ from vibroimpact.response.engine_input import (
 from vibroimpact.response.history_variables import Written, listed, sampled, transmitted
 from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.softening_limit import ended, judged
-
-if TYPE_CHECKING:
-    pass
 
 _Array: TypeAlias = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class OneMass(AnySystem):
     @property
     def layout(self) -> Layout:
         """That of one mass."""
-        return ONE_MASS
+        return phases.ONE_MASS
 
     @property
     def closing(self) -> _Array:
@@ -83,7 +83,7 @@ class OneMass(AnySystem):
     def signs(self) -> _Array:
         """Signs of the parts of a point."""
         signs = np.ones(self.parts)
-        signs[3] = -1.0
+        signs[self.places.of_point.deformation(1)] = -1.0
         return signs
 
     def numbers(self, shaking: Repeated | Record, **_: Any) -> _Array:
@@ -111,7 +111,7 @@ class OneMass(AnySystem):
         """Return a point and a mode near a state that need not be possible."""
         right, left = (state.deformation.get(side, 0.0) for side in SIDES)
         parts = np.array([state.displacement, state.velocity, right, -left, state.isolator])
-        return parts, float(record.TOUCHING.index(state.contact or 0))
+        return parts, float(CONTACTS.index(state.contact or 0))
 
     def read(self, start: AnyState | xr.DataArray | xr.Dataset | None) -> AnyState:
         """Return a start as a state; None is the static equilibrium."""
@@ -186,7 +186,7 @@ class OneMass(AnySystem):
 
     def ended(self, status: Status, out: _Array, vector: _Array) -> Status:
         """Return how a motion with these samples and this initial state ended."""
-        return ended(self.system, status, out[record.DISPLACEMENT], vector[U])
+        return ended(self.system, status, out[record.DISPLACEMENT], vector[FIRST])
 
     def of_masses(self, dims: Dims, values: NDArray[Any]) -> tuple[Dims, NDArray[Any]]:
         """Return the values of the only mass, without the dim ``mass``."""
@@ -200,9 +200,9 @@ class OneMass(AnySystem):
         """
         mass, found = self.system.mass, rows.copy()
         of_stops = [
-            ONE_MASS.stop(column, number)
+            phases.ONE_MASS.stop(column, number)
             for column in (phases.FORCE, phases.IMPULSE, phases.LOSES, phases.HIT)
-            for number in range(ONE_MASS.stops)
+            for number in range(phases.ONE_MASS.stops)
         ]
         found[:, [phases.LOST, phases.STRUCK, *of_stops]] *= mass
         found[:, phases.WORK] *= -mass

@@ -99,7 +99,8 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         The dim ``contact_number`` counts the contacts. The variables are the stop of the contact,
-        and the time, the phase and the relative velocity at its start.
+        and the time, the phase and the relative velocity (for an assembly, of each mass) at its
+        start.
 
     Raises
     ------

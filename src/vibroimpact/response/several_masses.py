@@ -29,6 +29,7 @@ from vibroimpact.response.assembly_state import (
 )
 from vibroimpact.response.history_variables import (
     Written,
+    busiest_by_mass,
     doubts_by_mass,
     listed_by_mass,
     sampled_by_mass,
@@ -129,12 +130,13 @@ class SeveralMasses(AnySystem):
         partners = self.partners
         if -1 in partners:
             return None
-        image, n, mode = np.zeros(self.width), self.masses, int(vector[MODE])
-        image[MODE] = sum(1 << partners[f] for f in range(self.stops) if mode >> f & 1)
-        image[FIRST : FIRST + 2 * n] = -vector[FIRST : FIRST + 2 * n]
-        image[FIRST + 2 * n :][: self.stops] = vector[FIRST + 2 * n :][partners]
-        memories = slice(FIRST + 2 * n + self.stops, FIRST + self.parts)
-        image[memories] = -vector[memories]
+        places, mode = self.places, int(vector[MODE])
+        image, moving = np.zeros(places.width), slice(FIRST, places.deformation(0))
+        deformations = slice(places.deformation(0), places.memory())
+        memories = slice(places.memory(), places.age)
+        image[MODE] = sum(1 << partners[f] for f in range(places.stops) if mode >> f & 1)
+        image[moving], image[memories] = -vector[moving], -vector[memories]
+        image[deformations] = vector[deformations][partners]
         image[FRESH] = self._begun(mode)
         return image
 
@@ -178,6 +180,10 @@ class SeveralMasses(AnySystem):
         rows = np.concatenate(events)
         count = {"simultaneous_impacts": int(rows[:, several.E_ORDERED].sum())}
         return count, doubts_by_mass(rows, undecided, section)
+
+    def cause_of_events(self, events: list[_Array], section: int) -> str:
+        """Describe which parts cause too many events in a section; may be empty."""
+        return busiest_by_mass(np.concatenate(events), section, self.system)
 
     def measured(
         self, rows: _Array, dims: Dims, stops: NDArray[np.str_] | None = None

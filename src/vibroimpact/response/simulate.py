@@ -192,7 +192,10 @@ def _history(
         run.cut(finished)
         ends = finished * (record.step if record else 1.0)
         where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
-        warn_of_result(f"simulate stopped {where}: {told.advice}")
+        too_many = run.status is Status.TOO_MANY_EVENTS
+        cause = states.cause_of_events(run.events, finished) if too_many else ""
+        advice = f"{told.advice}; here, {cause}" if cause else told.advice
+        warn_of_result(f"simulate stopped {where}: {advice}")
     elif told is not run.status:
         warn_of_result(f"simulate: {told.advice}")
     reached = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)

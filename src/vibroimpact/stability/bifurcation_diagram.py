@@ -332,9 +332,9 @@ def _points(
     """Return the points of a section as variables; of those that are padded nothing is known."""
     if section == "stroboscopic":
         return states.section_variables(points, dims)
-    side, phase, velocity = np.moveaxis(points, -1, 0)
+    stop, phase, velocity = np.moveaxis(points, -1, 0)
     return {
-        "contact_stop": (dims, np.where(np.isnan(side), "", stop_names(side))),
+        "contact_stop": (dims, np.where(np.isnan(stop), "", stop_names(stop))),
         "contact_start_phase": (dims, phase),
         "contact_start_velocity": (dims, velocity),
     }

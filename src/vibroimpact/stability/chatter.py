@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, section_map
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.motion import LEFT, RIGHT
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     MAX_EVENTS,
@@ -81,9 +81,9 @@ def placed_at_rest(found: Orbit) -> Orbit:
     if not mode or found.section.family.of_several_masses:
         return found
     system = found.section.family.system(found.value)
-    for side, sign in ((RIGHT, 1.0), (LEFT, -1.0)):
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        if not (mode & side and system[at + par.KIND] == par.RIGID):
+    for stop, sign in enumerate((1.0, -1.0)):
+        at = par.stop_at(stop)
+        if not (mode >> stop & 1 and system[at + par.KIND] == par.RIGID):
             continue
         point = found.point.copy()
         point[:2] = sign * system[at + par.GAP], 0.0
@@ -110,14 +110,14 @@ def _same(one: _Array, other: _Array) -> bool:
     if (one[-1, 1:] != other[-1, 1:]).any():
         return False
     extra, common = longer[len(shorter) :], longer[: len(shorter)]
-    if (extra[:, 1] != record.IMPACT).any() or (extra[:, 2] != one[-1, 2]).any():
+    if (extra[:, 1] != IMPACT).any() or (extra[:, 2] != one[-1, 2]).any():
         return False
     apart = np.abs(common[:, 0] - shorter[:, 0])
     return bool((common[:, 1:] == shorter[:, 1:]).all() and (apart <= _APART).all())
 
 
 def _chatters(found: Orbit) -> list[_Array] | None:
-    """Return the events of a period (time in cycles, kind, side), cut where each rest begins."""
+    """Return the events of a period (time in cycles, kind, stop), cut where each rest begins."""
     section = found.section
     system = section.family.system(found.value)
     phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])
@@ -139,10 +139,10 @@ def _chatters(found: Orbit) -> list[_Array] | None:
         return None
     seen = events[:count]
     time = seen[:, record.E_CYCLE] + seen[:, record.E_TIME] * frequency
-    rows = np.column_stack([time, seen[:, record.E_KIND], seen[:, record.E_SIDE]])
+    rows = np.column_stack([time, seen[:, record.E_KIND], seen[:, record.E_STOP]])
     # A release may fall on the section itself, and be followed by an impact without speed.
     met = np.abs(seen[:, record.E_V]) > _SPEED * section.scale[1]
-    rests_there = rows[:, 1] == record.CONTACT_BEGINS
-    rows = rows[(rows[:, 1] != record.DETACHMENT) & (met | rests_there)]
-    ends = np.flatnonzero(rows[:, 1] == record.CONTACT_BEGINS) + 1
+    rests_there = rows[:, 1] == CONTACT_BEGINS
+    rows = rows[(rows[:, 1] != DETACHMENT) & (met | rests_there)]
+    ends = np.flatnonzero(rows[:, 1] == CONTACT_BEGINS) + 1
     return [part for part in np.split(rows, ends) if len(part)]

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, lyapunov
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.observers.record import DETACHMENT
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.outputs import NamedOutput, computed
@@ -122,7 +123,7 @@ def _followed(
 
 
 def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:
-    """Side, phase of the forcing and velocity of each contact, as it begins."""
+    """Stop, phase of the forcing and velocity of each contact, as it begins."""
     shaken = found.excitation
     state, number, parts = found.state.copy(), 0, []
     outcome = 0
@@ -141,10 +142,10 @@ def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Stat
             np.empty((record.SAMPLE, 0)),
             events,
         )
-        parts.append(events[:count][events[:count, record.E_KIND] != record.DETACHMENT])
+        parts.append(events[:count][events[:count, record.E_KIND] != DETACHMENT])
     rows = np.concatenate(parts)
     turned = shaken.phase + shaken.angular_frequency * rows[:, record.E_TIME]
-    columns = [rows[:, record.E_SIDE], turned % (2.0 * math.pi), rows[:, record.E_V]]
+    columns = [rows[:, record.E_STOP], turned % (2.0 * math.pi), rows[:, record.E_V]]
     return np.column_stack(columns), Status(outcome)
 
 

@@ -311,7 +311,7 @@ def is_fixed(section: Section, found: Orbit, tolerance: float) -> bool:
 
 
 def margin_of(found: Orbit) -> float:
-    """Scaled distance from grazing: see `engine.observers.margin`."""
+    """Scaled distance from grazing: see `engine.one_mass.margin`."""
     section = found.section
     value: float = orbit.grazing_margin(
         section.family.system(found.value),

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from vibroimpact.engine.motion import FLIGHT
-from vibroimpact.engine.section_map import MODE, PARAMETER
+from vibroimpact.engine.section_map import MODE
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.model import Harmonic
 from vibroimpact.model.clearance import clearances_at_rest
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, resonance_ratio
-from vibroimpact.stability.fixed_points import Orbit
+from vibroimpact.stability.fixed_points import VALUE, Orbit
 from vibroimpact.stability.impact_grazing import has_rigid_stop
 from vibroimpact.stability.orbit_curve import Branch, Station, near_other_contacts
 
@@ -59,7 +59,7 @@ class InContact(Branch):
         close = _NEAR * length
         good, bad, last, middle = 0.0, length, here, length
         # What the frequency gains by a longer way, in contact.
-        pace = float(here.tangent[PARAMETER] * self.scale[PARAMETER])
+        pace = float(here.tangent[VALUE] * self.scale[VALUE])
         while True:
             found = self.stepped(here, middle)
             if found is None or not (flies(found) or found.contacts == here.orbit.contacts):
@@ -114,4 +114,4 @@ def turns_into_flight(last: Station, sense: float) -> bool:
     assert isinstance(shaken, Harmonic)
     resonance = resonance_ratio(Rig(rig, shaken)) * rig.natural_frequency
     outwards = 1.0 if last.orbit.value > resonance else -1.0
-    return bool(sense * outwards * last.tangent[PARAMETER] < 0.0)
+    return bool(sense * outwards * last.tangent[VALUE] < 0.0)

@@ -2,7 +2,7 @@
 
 With the velocity of the impact the map becomes steep like a square root, and Newton's method on
 it converges from ever closer only. The branch itself is smooth in w = √depth, where depth is that
-to which the impact would go without its stop (`engine.observers.margin`), in proportion to the
+to which the impact would go without its stop (`engine.one_mass.margin`), in proportion to the
 velocity. With an impact of that velocity, P(z) - z = J δ + k w and the depth is -g δ, so that
 
     J δ = -k w,  g δ = -w²

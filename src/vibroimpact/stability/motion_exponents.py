@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.observers.tangent import MEMORY
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_system import EngineSystem
 from vibroimpact.stability.exponents import DISCARD
@@ -77,7 +77,8 @@ def _rates(states: EngineSystem, carried: _Array) -> _Array:
             found: _Array = np.log(moduli[: 2 * states.masses])
         return found
     touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
-    kept = [0, 1, *touched, *([MEMORY] if carried[MEMORY].any() else [])]
+    memory = ONE_MASS.of_point.memory()
+    kept = [0, 1, *touched, *([memory] if carried[memory].any() else [])]
     moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
     with np.errstate(divide="ignore"):
         logarithms: _Array = np.log(moduli[:2])

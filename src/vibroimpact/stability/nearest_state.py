@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.state import FIRST
+from vibroimpact.engine.state import FIRST, ONE_MASS
 from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_state
@@ -41,21 +40,18 @@ def nearest_state(rig: Rig, state: _Array) -> _Array:
     if rig.system.by_mass:
         return _of_assembly(rig.assembly, state)
     oscillator = rig.oscillator
-    u, v = float(state[layout.U]), float(state[layout.V])
+    u, v = float(state[ONE_MASS.displacement()]), float(state[ONE_MASS.velocity()])
     if oscillator.right is not None and oscillator.right.rigid:
         u = min(u, oscillator.right.gap)
     if oscillator.left is not None and oscillator.left.rigid:
         u = max(u, -oscillator.left.gap)
     deformation = {
-        side: max(float(state[at]), sign * u - stop.gap, 0.0)
-        for side, sign, at in (
-            ("right", 1.0, layout.RIGHT_BUMPER),
-            ("left", -1.0, layout.LEFT_BUMPER),
-        )
+        side: max(float(state[ONE_MASS.deformation(number)]), sign * u - stop.gap, 0.0)
+        for number, (side, sign) in enumerate((("right", 1.0), ("left", -1.0)))
         if (stop := getattr(oscillator, side)) is not None and stop.spring_and_dashpot is not None
     }
     most = engine_rig(rig)[par.YIELD]
-    memory = min(max(float(state[layout.ISOLATOR]), -most), most)
+    memory = min(max(float(state[ONE_MASS.memory()]), -most), most)
     return engine_state(oscillator, State(u, v, deformation, isolator=memory))
 
 

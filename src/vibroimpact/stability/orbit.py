@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe
@@ -51,8 +52,8 @@ def orbit(
     xarray.Dataset
         The dataset contains the variables of `steady` for the orbit, and:
 
-        - ``monodromy``, the derivative of u, u̇, u_R and u_L after one period with respect to their
-          initial values;
+        - ``monodromy``, the derivative of u, u̇, u_right and u_left (positive when compressed) after
+          one period with respect to their initial values;
         - ``multiplier_real`` and ``multiplier_imag``, the Floquet multipliers;
         - ``residual``, the residual of the map, divided by the size of the motion.
 
@@ -72,8 +73,9 @@ def orbit(
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
     multipliers = found.multipliers
+    signs = fam.layout.signs[: fam.states, np.newaxis]
     data = data.assign(
-        monodromy=(("component_after", "component_before"), found.monodromy),
+        monodromy=(("component_after", "component_before"), signs * found.monodromy * signs.T),
         multiplier_real=("multiplier", multipliers.real),
         multiplier_imag=("multiplier", multipliers.imag),
         residual=float(found.facts[section_map.RESIDUAL]),

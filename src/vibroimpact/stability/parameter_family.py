@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout
-from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY, PARAMETER
+from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.periodic_shaking import as_periodic
@@ -117,7 +117,7 @@ class Family(NamedTuple):
         if self.of_several_masses:
             return self.layout.parts
         remembers = self.base[par.HYSTERETIC] or self.direction[par.HYSTERETIC]
-        return PARAMETER if remembers else PARAMETER - 1
+        return self.layout.parts - (0 if remembers else 1)
 
     @property
     def phase(self) -> float:

@@ -13,10 +13,9 @@ import numpy as np
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.forcing.dispatch import short_series
 from vibroimpact.engine.linear.evaluate import band, node, travel
-from vibroimpact.engine.linear.layout import NODES, TABLES
+from vibroimpact.engine.linear.layout import NODES, TABLES, Row
 from vibroimpact.engine.linear.table_search import bends
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.parameters import Drive, rig_vector
 
 DRIVES = {

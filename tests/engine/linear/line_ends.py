@@ -10,11 +10,11 @@ import math
 
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.linear.flight import flight
-from vibroimpact.engine.linear.layout import TABLES, H
+from vibroimpact.engine.linear.layout import TABLES, H, Row
 from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.motion import FLIGHT, Row
 from vibroimpact.engine.parameters import Drive, rig_vector
+from vibroimpact.engine.state import FLIGHT
 
 INTERVAL, ROOT, SLOPE = 0.01, 0.05, 200.0
 LEVEL = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)

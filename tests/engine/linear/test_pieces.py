@@ -22,8 +22,9 @@ from vibroimpact.engine.linear.pieces import (
 )
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, RIGHT, Motion
+from vibroimpact.engine.motion import RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.response.engine_system import engine_rig
 
 FREQUENCY, PHASE = 0.2, 0.7

@@ -18,11 +18,12 @@ import pytest
 from vibroimpact.engine import native
 from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.flight import flight, parted
-from vibroimpact.engine.linear.layout import PLAN
+from vibroimpact.engine.linear.layout import PLAN, Row
 from vibroimpact.engine.linear.table_search import ABOVE, BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.motion import FLIGHT, RIGHT, Row
+from vibroimpact.engine.motion import RIGHT
 from vibroimpact.engine.parameters import SIZE, rig_vector
+from vibroimpact.engine.state import FLIGHT
 
 INF = math.inf
 

@@ -19,11 +19,13 @@ from vibroimpact.engine.linear.layout import (
     TABLES,
     VALID_FROM,
     H,
+    Row,
 )
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
 from vibroimpact.engine.stops.places import overlapping
 from vibroimpact.engine.stops.rigid import resting

@@ -30,8 +30,9 @@ from vibroimpact.engine.linear.window_bounds import (
     enclosed,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.response.engine_system import engine_rig
 
 FREQUENCY = 0.2

@@ -14,11 +14,19 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.event import LIMIT, TURN
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
-from vibroimpact.engine.state import EVENT, T, load, notes_room, parts_room, room, stretch_room
+from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.state import (
+    EVENT,
+    ONE_MASS,
+    T,
+    load,
+    notes_room,
+    parts_room,
+    room,
+    stretch_room,
+)
 from vibroimpact.response.prepared_rig import prepare
 
 TAU = 2.0 * math.pi
@@ -186,7 +194,7 @@ def grown_over(given, rig, length, event, q, logarithms):
     plan = planned(given, rig)
     flow.build(plan, 0.0, 1.0)
     before, after, ended, weights = room(), room(), stretch_room(), parts_room()
-    load(plan, pointer(np.zeros(STATE)), before, 0.0, 1.0)
+    load(plan, pointer(np.zeros(ONE_MASS.width)), before, 0.0, 1.0)
     flow.advance(plan, before, length, ended, after)
     ended[EVENT], ended[T] = event, 0.0
     growth.weigh(plan, weights)

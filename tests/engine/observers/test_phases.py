@@ -13,8 +13,9 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
+from vibroimpact.engine.observers.record import IMPACT, WRITTEN, note_room, start_notes
+from vibroimpact.engine.one_mass import record as written
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import copy, room, width, wind
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
@@ -74,7 +75,7 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, 
     """The same cycle, measured, written down and integrated."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, omega)
-    state, kept = room(), written.note_room()
+    state, kept = room(), note_room()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     begin_row(pointer(rows), 1, 0, int(notes[layout.WIDTH]))
@@ -82,10 +83,10 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, 
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     columns = samples.shape[1]
-    written.start_notes(kept, columns, 0, LENGTH / SAMPLES, SAMPLES, 0, 0, MOST, 0)
+    start_notes(kept, columns, 0, LENGTH / SAMPLES, SAMPLES, 0, 0, MOST, 0)
     event_loop.record(plan, state, S, C, LENGTH, MOST, kept, pointer(samples), pointer(events))
     flow.write(plan, state, pointer(samples), columns, SAMPLES)
-    notes[layout.NUMBER] = kept[written.WRITTEN]
+    notes[layout.NUMBER] = kept[WRITTEN]
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     fourier.integrate(plan, state, S, C, LENGTH, MOST, pointer(since), pointer(lines), pointer(out))
@@ -129,8 +130,7 @@ def test_a_flow_measures_what_its_samples_tell(name: str, base: float) -> None:
     rows, events = rows[: count + 1], events[:count]
     np.testing.assert_array_equal(rows[:-1, layout.SINCE], events[:, written.E_TIME])
     np.testing.assert_array_equal(rows[:-1, layout.KIND], events[:, written.E_KIND])
-    sides = np.where(events[:, written.E_SIDE] == 1.0, 0.0, 1.0)
-    np.testing.assert_array_equal(rows[:-1, layout.AT_STOP], sides)
+    np.testing.assert_array_equal(rows[:-1, layout.AT_STOP], events[:, written.E_STOP])
     arrival = rows[:-1, ONE_MASS.mass(layout.ARRIVAL)]
     np.testing.assert_array_equal(arrival, events[:, written.E_V])
     sharp = np.abs(events[:, [written.E_BEFORE, written.E_BEHIND]]).max(axis=1)
@@ -185,12 +185,12 @@ def of_phase(name, row, seen, time, base, events, i):
         near(row[layout.LOST], 0.1 * v**2 + FRICTION * np.abs(v))
     elif not name.startswith("Yielding"):
         near(row[layout.LOST], 0.1 * v**2)
-    for number, (sign, face) in enumerate(((1.0, written.RIGHT_FACE), (-1.0, written.LEFT_FACE))):
-        depth = sign * seen[face]
+    for number, sign in enumerate((1.0, -1.0)):
+        depth = seen[written.DEFORMATION + number]
         stop = {k: row[ONE_MASS.stop(k, number)] for k in range(layout.STOP)}
         if name == "AnyStops" and number == 0:
             assert stop[layout.IMPULSE] == stop[layout.FORCE] == 0.0
-            hit = row[layout.KIND] == written.IMPACT
+            hit = row[layout.KIND] == IMPACT
             lost = 0.5 * (1.0 - 0.7**2) * events[i, written.E_V] ** 2 if hit else 0.0
             assert stop[layout.HIT] == pytest.approx(lost, rel=1e-12)
             continue

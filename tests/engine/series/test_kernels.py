@@ -11,14 +11,14 @@ from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_tables import plan_of
-from vibroimpact.engine.motion import STATE
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series import kernels, root_variable, slopes, step
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series.code_generation import Plain
 from vibroimpact.engine.series.root_variable import Rooted
 from vibroimpact.engine.series.step import Shape
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import DONE, TOO_MANY_EVENTS
 from vibroimpact.law_numbers import SYMBOLS, IsolatorNumbers, PowerLaw
 
@@ -186,7 +186,7 @@ def outcome_of(made: np.ndarray, asked: np.ndarray) -> int:
     trajectory = batch.trajectory
     plan = plan_of(made, trajectory.groups)
     _, _, outcome = trajectory.of(plan)(
-        plan, asked, 0.6, 0.2, 0.0, np.zeros(STATE), 0.0, 1.0, 0, 100,
+        plan, asked, 0.6, 0.2, 0.0, np.zeros(ONE_MASS.width), 0.0, 1.0, 0, 100,
         np.empty((0, record.SAMPLE)), np.empty((101, record.EVENT)),
     )  # fmt: skip
     return outcome

@@ -12,7 +12,7 @@ from formula_stops import formula_stops
 from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.engine_system import engine_rig
 

@@ -10,12 +10,13 @@ from scipy.linalg import expm
 import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, SHAKEN, between, followed, pairs, started
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, RIGHT_BUMPER, U, V
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.motion import FACES, ISOLATOR, U, V
+from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.state import MODE
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_system import engine_rig
 
-ORDER = [U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR]
+ORDER = [U, V, FACES, FACES + 1, ISOLATOR]
 SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
 STEP = 1e-5
 

@@ -11,7 +11,8 @@ import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.taylor.mode_forces import isolator_force, stuck
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.response.engine_system import engine_rig

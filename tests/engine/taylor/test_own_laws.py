@@ -14,10 +14,11 @@ from engine.taylor.test_carry import carried
 from samples import sample
 from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.flow_dispatch import carries
-from vibroimpact.engine.motion import MODE, STATE, U, V
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.motion import STATE, U, V
+from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.parameters import OWN, rig_vector
 from vibroimpact.engine.series.program import unpack
+from vibroimpact.engine.state import MODE
 from vibroimpact.law_numbers import SYMBOLS, IsolatorNumbers, OwnStop, PowerLaw, Program, pack
 
 SHAKEN = vi.Harmonic(0.6, 0.17, 0.4)

@@ -11,9 +11,10 @@ from scipy.optimize import brentq
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
-from vibroimpact.engine.motion import BOTH, FLIGHT, Motion
+from vibroimpact.engine.motion import BOTH, Motion
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series.layout import DEGREE, X
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.taylor.pieces import begun, motion_at
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw

@@ -8,9 +8,9 @@ import numpy as np
 
 import vibroimpact as vi
 from vibroimpact.engine import batch
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.response.engine_system import engine_rig
 
 CYCLES = 8
@@ -67,10 +67,10 @@ def vectors(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic) -> tuple[np.n
 
 def started(rig: vi.Oscillator) -> np.ndarray:
     """At rest where it is nearest to 0."""
-    state = np.zeros(layout.STATE)
+    state = np.zeros(ONE_MASS.width)
     most = rig.right.gap if rig.right is not None else math.inf
     least = -rig.left.gap if rig.left is not None else -math.inf
-    state[layout.U] = min(max(0.0, least), most)
+    state[ONE_MASS.displacement()] = min(max(0.0, least), most)
     return state
 
 

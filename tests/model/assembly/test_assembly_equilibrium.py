@@ -123,6 +123,67 @@ def test_a_free_mass_without_a_force_stays():
     np.testing.assert_allclose(rest(found), [0.1, 0.0], atol=1e-15)
 
 
+def test_masses_that_no_force_reaches_move_exactly_as_their_host():
+    """The order of the masses would decide whether a stop without a gap is pressed by rounding."""
+    rng = np.random.default_rng(5)
+    masses = dict.fromkeys("abcdefg", 1.0)
+    for _ in range(20):
+        springs = [vi.Isolator(float(k), 0.1) for k in rng.uniform(0.3, 3.0, 6)]
+        hysteretic = vi.BilinearIsolator(5.0, 0.4, 0.6, 0.01)
+        links = {
+            "a": vi.Link(GROUND, "a", springs[0]),
+            "b": vi.Link("a", "b", springs[1]),
+            "c": vi.Link("b", "c", springs[2]),
+            "d": vi.Link("c", "d", hysteretic),
+            "e": vi.Link("b", "d", springs[3]),
+            "dashpot": vi.Link(GROUND, "d", vi.Isolator(0.0, 0.3)),
+            "f": vi.Link(GROUND, "f", vi.PolynomialIsolator(1.0, 0.1, 0.3)),
+            "g": vi.Link("f", "g", springs[4]),
+        }
+        stops = {
+            "closed": vi.Link("b", "e", vi.Bumper(40.0, 0.1, 0.1)),
+            "beside": vi.Link("c", "d", vi.PowerBumper(5.0, 0.0)),
+            "apart": vi.Link("f", "g", vi.Bumper(3000.0, 0.1, 0.0)),
+        }
+        links["ball"] = vi.Link(GROUND, "e", springs[5])
+        names = [str(one) for one in rng.permutation(list(masses))]
+        found = vi.Assembly(dict.fromkeys(names, 1.0), links, stops, {"b": 2.0})
+        u = equilibrium(found).displacement
+        assert u["c"] == u["d"] == u["b"] > u["e"] + 0.1 > 0.1
+        pressed = 40.0 * (u["b"] - u["e"] - 0.1)
+        assert springs[5].stiffness * u["e"] == pytest.approx(pressed, rel=1e-9)
+        assert "f" not in u
+        assert "g" not in u
+
+
+def test_bodies_that_press_a_rigid_stop_touch_exactly():
+    """With full restitution, a clearance of 1e-20 m would be the height of endless impacts."""
+    rng = np.random.default_rng(6)
+    for _ in range(20):
+        k = [float(one) for one in 10.0 ** rng.uniform(-0.5, 1.5, 5)]
+        links = {
+            "a": vi.Link(GROUND, "a", vi.Isolator(k[0], 0.1)),
+            "b": vi.Link("a", "b", vi.Isolator(k[1], 0.1)),
+            "c": vi.Link("b", "c", vi.Isolator(k[2], 0.1)),
+            "d": vi.Link(GROUND, "d", vi.Isolator(k[3], 0.1)),
+        }
+        gap = float(rng.uniform(0.001, 0.01))
+        stops = {
+            "wall": vi.Link(GROUND, "c", vi.RigidStop(1.0, 0.0)),
+            "far": vi.Link("a", "d", vi.RigidStop(1.0, gap)),
+            "beside": vi.Link("d", "e", vi.RigidStop(1.0, 0.0)),
+            "end": vi.Link("e", GROUND, vi.RigidStop(1.0, gap)),
+        }
+        links["e"] = vi.Link(GROUND, "e", vi.Isolator(k[4], 0.1))
+        names = [str(one) for one in rng.permutation(list("abcde"))]
+        masses = dict.fromkeys(names, 1.0)
+        pushed = {"a": -1.0, "d": 900.0}
+        u = equilibrium(vi.Assembly(masses, links, stops, pushed)).displacement
+        assert u["a"] < u["b"] < 0.0
+        assert "c" not in u
+        assert u["d"] == u["e"] == gap
+
+
 def test_two_friction_links_stick_and_slide():
     links = {
         "lower": vi.Link(GROUND, "p", vi.FrictionIsolator(100.0, 0.0, 3.0)),

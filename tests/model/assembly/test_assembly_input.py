@@ -214,7 +214,7 @@ BAD = {
     "chain damping": (lambda: vi.chain([1], [1], -1), r"^damping_ratio: -1 is less than 0"),
     "chain rule": (
         lambda: vi.chain([1], [1], damping="x"),
-        r"^damping: 'x'; use 'modal' or 'rayleigh'",
+        r"^damping: 'x' is unknown; use modal or rayleigh",
     ),
     "chain modes": (
         lambda: vi.chain([1], [1], damping="rayleigh", rayleigh_modes=(1, 2)),
@@ -440,6 +440,36 @@ def test_an_isolator_carries_all_that_stands_on_it(ends, order):
             },
             units="none",
         )
+
+
+def test_an_assumed_mass_is_in_the_notes_of_results():
+    """Of all rigs, of results of results, and in other processes; not of a law that replaces it."""
+    ends = {"left": GROUND, "right": "base"}
+    links = {**STOREYS, "isolator": {**ends, "period": "2 s", "damping_ratio": 0.1}}
+    with pytest.warns(vi.InputWarning):
+        made = vi.Assembly(FRAME, links)
+    told = (
+        "links.isolator.period: the mass that this link carries is assumed to be 1000 t, that of "
+        "'base', 'first', 'second' and 'roof'"
+    )
+    assert made.assumptions == (told,)
+    assert pickle.loads(pickle.dumps(made)).assumptions == (told,)
+    rig = vi.Rig(made, vi.Harmonic("0.5 g", "0.6 Hz"))
+    motion = vi.simulate(rig, 2, samples=8)
+    record = vi.Record([0.0, 1.0, 0.0], 0.1)
+    for data in (
+        motion,
+        vi.totals(motion),
+        vi.modes(made.replace(forces={"roof": 1.0})),
+        vi.sweep(rig, [0.5], max_cycles=2, window=1),
+        vi.seismic_response(vi.Rig(made, record)),
+        vi.demands({"a": made}, {"r": record}),
+    ):
+        assert data.attrs["notes"].splitlines().count(told) == 1, data.attrs["created_by"]
+    plain = made.replace(links={**made.links, "isolator": made.links["isolator"].replace()})
+    assert plain == made
+    assert hash(plain) == hash(made)
+    assert plain.assumptions == ()
 
 
 def test_the_mass_that_a_link_carries_can_be_stated():

@@ -27,7 +27,7 @@ JUMPED = 3
 KEPT = 6
 """Zeros by construction that fit into a state."""
 LEVELS = 16
-"""Of how far to leap, which stands below them; the bit of `motion.SETTLING` is never set."""
+"""Of how far to leap, which stands below them; the bit of `state.SETTLING` is never set."""
 
 
 @kernel

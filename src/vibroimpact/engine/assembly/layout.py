@@ -1,11 +1,11 @@
 """Where things are in a plan and in a state.
 
-A plan begins with whole numbers, kept as floats: sizes, and the places of blocks; FLOW stands where
-a rig of one mass tells what shakes it, and is `parameters.MASSES`. Up to `NUMBERS`
-it is the rig's vector, after which a system vector has its amplitude and frequency; what follows
-are constants and rooms.
+A plan begins with whole numbers, kept as floats: sizes, and the places of blocks; FLOW, which is
+`parameters.MASSES`, stands where a rig of one mass has its FORCING. Up to `NUMBERS` it is the rig's
+vector, after which a system vector has its amplitude and frequency; what follows are constants and
+rooms.
 A state is [mode, fresh, u (n), v (n), deformation (a number for each stop), age, s, c]. `fresh`
-tells which watched functions are zero by construction, and how far to leap (see
+states which watched functions are zero by construction, and how far to leap (see
 `events.pack_fresh`).
 """
 

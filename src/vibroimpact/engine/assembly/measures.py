@@ -165,7 +165,7 @@ def _range_of(plan: Vector, c: int) -> int:
 
 
 def staying(range_of: Any) -> Any:
-    """Make what tells whether the last stretch stays within ranges, by tables alone.
+    """Make the check whether the last stretch stays within ranges, by tables alone.
 
     `range_of(plan, c)` is where in the notes the range of an observed channel stands. Nothing is
     touched on such a stretch; by less than rounding a channel may leave its range.

@@ -20,8 +20,8 @@ from vibroimpact.engine.event import CONTACT, GIVEN_UP, IMPACT, LIMIT, at_stop, 
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.observers import phases, record
-from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.observers.phases import DRIFT, MASS, STOP, SYSTEM, begin_row
+from vibroimpact.engine.quadrature import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.state import FRESH
 
 _AT_REST = 1e-12

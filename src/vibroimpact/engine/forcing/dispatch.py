@@ -22,6 +22,16 @@ and, from a mode's table,
     nudged(plan, s, c, angle)              the same for an angle whose square is nothing
     pull(plan, table, s, c)                A_t h² as the mode sees it, mirrored or not
     pull_series(plan, table, s, c, series) the long series of that
+
+Only what is neither a sum of harmonics of one frequency (`Periodic`), a constant force nor a
+`Record` needs another one, and only if its clock does not depend on the motion and restarts each
+cycle. It is a file here with these kernels (as `ramp`), in `FORCINGS` and `_by_forcing`; a code
+beside RAMP in `parameters`, which `rig_vector` writes; a type of plan in `_ADVANCE`, `_FORCING` and
+`_YIELDING` of `flow_dispatch`, which `_flow` there returns; and, unless it is a sum of waves
+(`wave`), more columns of the state row (`linear.layout`). In Python: a class in
+`model/excitation.py` (periodic: of `Repeated`); its `Drive` in `_drive` of
+`response/engine_input.py`; its free response (`response/analytic_free_response.py`) and that of
+several masses (`response/assembly_rig.py`); and whatever asks for `isinstance(…, Periodic)`.
 """
 
 from __future__ import annotations

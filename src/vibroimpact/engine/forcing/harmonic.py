@@ -21,8 +21,8 @@ from vibroimpact.engine.linear.layout import (
     SINE,
     STEEPEST,
     H,
+    Row,
 )
-from vibroimpact.engine.motion import Row
 
 _FAR = 1.45
 """Angle (rad) up to which the polynomials of `stepped` are right to rounding."""

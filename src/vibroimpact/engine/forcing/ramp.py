@@ -19,8 +19,8 @@ from vibroimpact.engine.linear.layout import (
     SINE,
     STEEPEST,
     H,
+    Row,
 )
-from vibroimpact.engine.motion import Row
 
 product = harmonic.product
 expand = harmonic.expand

@@ -31,10 +31,10 @@ from vibroimpact.engine.linear.layout import (
     WAVE_C,
     WAVE_S,
     H,
+    Row,
 )
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.layout import PLAN
 
 turned_clock = harmonic.turned_clock

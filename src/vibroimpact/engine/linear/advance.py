@@ -6,19 +6,18 @@ from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, event_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.flight import flight
-from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H
+from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H, Row
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
-    FLIGHT,
     RELEASED,
     SEEN_LEFT,
     Ended,
     Motion,
-    Row,
     coordinates,
     main_stop,
 )
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
 from vibroimpact.engine.stops.places import gap_of, place_at, total_gap
 

@@ -12,18 +12,10 @@ from vibroimpact.engine.event import CONTACT, LIMIT, event_of, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import fly, press
 from vibroimpact.engine.linear.flight import flight
+from vibroimpact.engine.linear.layout import Row
 from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
-from vibroimpact.engine.motion import (
-    BOTH,
-    FLIGHT,
-    RELEASED,
-    SETTLING,
-    Ended,
-    Motion,
-    Row,
-    facing,
-    main_stop,
-)
+from vibroimpact.engine.motion import BOTH, RELEASED, Ended, Motion, facing, main_stop
+from vibroimpact.engine.state import FLIGHT, SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import rate_of
 from vibroimpact.engine.stops.places import overlapping, place_at, total_gap
 from vibroimpact.engine.stops.rigid import impact, rest, resting, rigid, settle

@@ -23,11 +23,11 @@ from vibroimpact.engine.linear.layout import (
     TAYLOR_F,
     VALID_FROM,
     H,
+    Row,
 )
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.stops.kelvin_voigt import relieved
 
 _PRESSING = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)

@@ -13,7 +13,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import count, wave
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.table_rows import swing_of
-from vibroimpact.engine.motion import FLIGHT, Clock, Motion, facing
+from vibroimpact.engine.motion import Motion, facing
+from vibroimpact.engine.state import FLIGHT, Clock
 
 _WITHIN = 1.0 - 1e-9
 """Share of a gap that a motion may use: a graze is followed."""

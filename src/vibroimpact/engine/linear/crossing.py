@@ -5,9 +5,8 @@ from __future__ import annotations
 from vibroimpact.engine.forcing.dispatch import nudged, short_series, turn
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import moved
-from vibroimpact.engine.linear.layout import FINE, FINE_NODE, RADIUS, RATE, SCALED_W, WIDTH
+from vibroimpact.engine.linear.layout import FINE, FINE_NODE, RADIUS, RATE, SCALED_W, WIDTH, Row
 from vibroimpact.engine.linear.roots import NONE
-from vibroimpact.engine.motion import Row
 
 
 @kernel

@@ -37,9 +37,9 @@ from vibroimpact.engine.linear.layout import (
     TAYLOR,
     WIDTH,
     H,
+    Row,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Row
 
 
 @kernel

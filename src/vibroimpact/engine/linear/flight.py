@@ -24,6 +24,7 @@ from vibroimpact.engine.linear.layout import (
     VALID_FROM,
     WIDTH,
     H,
+    Row,
 )
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import (
@@ -39,7 +40,6 @@ from vibroimpact.engine.linear.table_search import (
     walk,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 _WEAK_PULL = 0.45  # theory, section 3.3

@@ -6,6 +6,8 @@ is the position where it begins.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.memory import TERMS
 
@@ -91,3 +93,16 @@ PLAN = TABLES + 2 * LATE_TABLES
 
 COLUMNS = 5
 """Of a state row: x, x′, the two numbers of the forcing's clock, 1."""
+
+
+class Row(NamedTuple):
+    """The state row, but for its 1: a mode's own coordinate, its rate, and the forcing's phasor.
+
+    x is the displacement in flight and the pressed bumper's deformation in contact, measured
+    towards the bumper: what is pressed on the left is seen in the mirror.
+    """
+
+    x: float
+    v: float
+    s: float
+    c: float

@@ -37,10 +37,11 @@ from vibroimpact.engine.linear.layout import (
     VALID_FROM,
     WIDTH,
     H,
+    Row,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, Motion, Row, changed, coordinates, direction, main_stop
-from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, VELOCITY
+from vibroimpact.engine.motion import BOTH, Motion, changed, coordinates, direction, main_stop
+from vibroimpact.engine.one_mass.record import ACCELERATION, BLOCK, VELOCITY
 from vibroimpact.engine.stops.places import place_at, total_gap
 from vibroimpact.engine.stops.rigid import rigid
 

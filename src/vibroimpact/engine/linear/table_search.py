@@ -17,9 +17,20 @@ from vibroimpact.engine.forcing.dispatch import expand, product, short_series
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
 from vibroimpact.engine.linear.evaluate import moved, node, travel
-from vibroimpact.engine.linear.layout import FOURTH, FOURTH_0, LATE, MIDDLE, NODE, NODES, WIDTH, H
+from vibroimpact.engine.linear.layout import (
+    FOURTH,
+    FOURTH_0,
+    LATE,
+    MIDDLE,
+    NODE,
+    NODES,
+    WIDTH,
+    H,
+    Row,
+)
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Row
+from vibroimpact.engine.motion import LEFT, RIGHT
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 ABOVE, BELOW, WITHIN = RIGHT, LEFT, FLIGHT

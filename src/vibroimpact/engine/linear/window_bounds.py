@@ -1,7 +1,7 @@
 """Between which bounds a motion lies on each interval of a window, for far less than its series.
 
 Over a step a curve with |q″| ≤ M keeps within M h²/8 of its chord, and a curve whose slope keeps
-its sign, which its own chord tells, between its ends; so the values at the nodes of a window
+its sign, which its own chord shows, between its ends; so the values at the nodes of a window
 enclose all of it. Whoever asks for extremes needs the series of those intervals only
 whose bounds reach beyond what was seen.
 """

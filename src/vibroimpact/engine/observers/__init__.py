@@ -22,4 +22,16 @@ first try is quicker.
 
 Some observers here are functions of the flow (`flow`) instead: one mass has bounds that let
 `extremes` pass over most of a motion, and channels show no disturbances.
+
+An output variable that the engine must measure (else: `datasets.vocabulary`) is a number more of
+one of them; of several masses, of the modules of `assembly` in brackets:
+
+- histories: a row of `record` (SAMPLE: `write`, `sample`; EVENT: `record`), named in
+  `response/history_variables.py` (`record`);
+- sweeps: a note of `extremes`, begun by `nothing`, which `measured` of `one_mass` writes into the
+  result of a hold; `undisturbed` there writes that of a motion that touches no stop, 0 unless it is
+  set. `hold` has its position, `response/hold_rows.py` its name (`measures`, named in
+  `response/assembly_rows.py`);
+- contacts and flights: a column of `phases`, which `measure` writes (`stretches`), and which
+  `response/contacts.py` and `response/totals.py` read.
 """

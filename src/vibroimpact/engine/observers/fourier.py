@@ -17,7 +17,7 @@ from vibroimpact.engine.channels import (
     series_room,
 )
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
+from vibroimpact.engine.quadrature import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.state import T
 
 TURN = 8.0

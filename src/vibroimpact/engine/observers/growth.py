@@ -21,11 +21,11 @@ from vibroimpact.engine import flow
 from vibroimpact.engine.event import LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.motion import SETTLING
 from vibroimpact.engine.state import (
     EVENT,
     FRESH,
     LARGEST,
+    SETTLING,
     STEP,
     T,
     copy,
@@ -200,7 +200,7 @@ def grow(
 ) -> None:
     """Carry disturbances through a stretch: an observer (see `event_loop.observed`).
 
-    The notes are those of `observers.tangent`. Rows that are orthonormal stay so. Where a
+    The notes are those of `flow.tangent`. Rows that are orthonormal stay so. Where a
     stretch ends otherwise when it is carried in pieces, as rounding may decide at a grazing, a row
     that has lost its digits to others has an unknown growth: its logarithm becomes NaN.
     """

@@ -1,55 +1,16 @@
-"""A motion written down: samples at equal times, and every contact and detachment."""
+"""What all flows keep of a motion that is written down: the next sample, and the next event.
+
+Rows of the samples and columns of the events are those of the flow (`one_mass.record`,
+`assembly.record`).
+"""
 
 from __future__ import annotations
 
-import math
-
-from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import (
-    acceleration,
-    begin,
-    displacement,
-    sample_stretch,
-    stop_deformation,
-)
-from vibroimpact.engine.event import LIMIT, at_stop, begins_contact, kind_of, stop_of
-from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.memory import beyond, stack, workspace
-from vibroimpact.engine.motion import (
-    BOTH,
-    Motion,
-    arrived,
-    direction,
-    facing,
-    main_stop,
-    stretch_of,
-    unpacked,
-)
-from vibroimpact.engine.stops.kelvin_voigt import relaxed
-
-# Rows of the samples: a row a variable, so that each is one piece of memory.
-DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
-RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT, MEMORY = range(5, 9)
-SAMPLE = 9
-
-BLOCK = 64
-"""Samples that are computed together."""
-U = SAMPLE
-"""Behind the rows of a block: the displacement, where the mode's own coordinate is still needed."""
-samples = stack((SAMPLE + 1) * BLOCK)
-"""Room for a block."""
-
-TOUCHING = (0.0, 1.0, -1.0, 2.0)
-"""The row CONTACT by mode: none, right, left, both."""
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.memory import stack
 
 DETACHMENT, CONTACT_BEGINS, IMPACT = 0.0, 1.0, 2.0
-"""The column E_KIND."""
-
-# Columns of an event: the state there, and the absolute acceleration just before and behind.
-E_CYCLE, E_TIME, E_KIND, E_SIDE, E_U, E_V, E_RIGHT, E_LEFT, E_BEFORE, E_BEHIND = range(10)
-E_MEMORY = 10
-EVENT = 11
-
+"""What an event at a stop is, of those that are written down."""
 
 # What is kept of a record between calls.
 COLUMNS, BEGIN, STEP, COUNT, NEXT, WRITTEN, LAST, NUMBER = range(8)
@@ -80,32 +41,6 @@ def start_notes(
 
 
 @kernel
-def clearance_of(plan: Vector, stop: int, mode: int, face: float, distance: float) -> float:
-    """Clearance of a stop (the paper's eq. 4); zero in contact, NaN where there is no stop."""
-    at = par.stop_at(stop)
-    if plan[at + par.KIND] == par.ABSENT:
-        return math.nan
-    return 0.0 if mode >> stop & 1 else plan[at + par.GAP] + (face - distance)
-
-
-@kernel
-def write(plan: Vector, state: Vector, out: Vector, columns: int, k: int) -> None:
-    """Write a state as sample k of so many columns."""
-    motion = unpacked(state)
-    mode, u = motion.mode, motion.u
-    # Adding zero leaves no negative one.
-    out[DISPLACEMENT * columns + k], out[VELOCITY * columns + k] = u + 0.0, motion.v + 0.0
-    out[ACCELERATION * columns + k] = acceleration(plan, motion) + 0.0
-    for stop in range(2):
-        way, depth = facing(stop), stop_deformation(plan, motion, stop)
-        out[(RIGHT_FACE + stop) * columns + k] = way * depth + 0.0
-        clear = clearance_of(plan, stop, mode, depth, way * u)
-        out[(RIGHT_CLEARANCE + stop) * columns + k] = clear + 0.0
-    out[CONTACT * columns + k] = TOUCHING[mode]
-    out[MEMORY * columns + k] = motion.z + 0.0
-
-
-@kernel
 def before_end(i: int, n: int, step: float, end: float) -> int:
     """The first of the samples from i to n that does not come before a time."""
     last = n
@@ -116,119 +51,3 @@ def before_end(i: int, n: int, step: float, end: float) -> int:
         while last < n and last * step < end:
             last += 1
     return last
-
-
-@kernel
-def sample_stop(
-    plan: Vector, before: Motion, stop: int, t: float, step: float, i: int, n: int, room: Vector
-) -> None:
-    """Write the face of a stop at n samples and its clearance; what the mass does is there."""
-    mode, way = before.mode, facing(stop)
-    row, clear = (RIGHT_FACE + stop) * BLOCK, (RIGHT_CLEARANCE + stop) * BLOCK
-    at = par.stop_at(stop)
-    other = par.stop_at(1 - stop)
-    gap, rate = plan[at + par.GAP], plan[at + par.RATE]
-    if mode >> stop & 1:
-        # The mode's own coordinate is the deformation of the right stop where both are pressed.
-        apart = gap + plan[other + par.GAP] if stop != main_stop(mode) else 0.0
-        sign = way if mode == BOTH else 1.0
-        for j in range(n):
-            room[row + j] = way * (sign * room[j] - apart)
-            room[clear + j] = 0.0
-        return
-    deformation = before.faces[stop]
-    for j in range(n):
-        room[row + j] = 0.0
-    if deformation > 0.0:
-        for j in range(n):
-            tau = max((i + j) * step - t, 0.0)
-            room[row + j] = way * relaxed(deformation, rate, tau)
-    if plan[at + par.KIND] == par.ABSENT:
-        gap = math.nan
-    for j in range(n):
-        room[clear + j] = gap + way * (room[row + j] - room[U * BLOCK + j])
-
-
-@inlined
-def put(out: Vector, to: int, room: Vector, start: int, n: int, sign: float) -> None:
-    """Write n numbers of a block to the samples; adding zero leaves no negative one."""
-    for j in range(n):
-        out[to + j] = sign * room[start + j] + 0.0
-
-
-@kernel
-def sample(
-    plan: Vector, notes: Vector, flat: Vector, before: Motion, t: float, reach: float
-) -> None:
-    """Fill the samples that fall within one stretch.
-
-    The motion itself is not interrupted: what is sampled has no influence.
-    """
-    i, step = int(notes[NEXT]), notes[STEP]
-    end = before_end(i, int(notes[COUNT]), step, t + reach)
-    if i >= end:
-        return
-    series, room = workspace(), samples()
-    mode = before.mode
-    sign = direction(mode)
-    contact = TOUCHING[mode]
-    count = int(notes[COLUMNS])
-    remembers = plan[par.HYSTERETIC] != 0.0  # else nobody looks at that row
-    cursor = begin(plan, before, reach)
-    while i < end:
-        n = min(end - i, BLOCK)
-        cursor = sample_stretch(plan, cursor, before, t, step, i, n, series, room)
-        for j in range(n):
-            room[U * BLOCK + j] = displacement(plan, mode, room[j])
-        for stop in range(2):
-            sample_stop(plan, before, stop, t, step, i, n, room)
-        k = int(notes[BEGIN]) + i
-        put(flat, DISPLACEMENT * count + k, room, U * BLOCK, n, 1.0)
-        put(flat, VELOCITY * count + k, room, VELOCITY * BLOCK, n, sign)
-        put(flat, ACCELERATION * count + k, room, ACCELERATION * BLOCK, n, sign)
-        for row in range(RIGHT_FACE, CONTACT):
-            put(flat, row * count + k, room, row * BLOCK, n, 1.0)
-        for j in range(n):
-            flat[CONTACT * count + k + j] = contact
-        if remembers:
-            put(flat, MEMORY * count + k, room, MEMORY * BLOCK, n, 1.0)
-        i += n
-    notes[NEXT] = i
-
-
-@kernel
-def recorded_kind(event: int, after: Motion) -> float:
-    """What the event of a stop is in the column E_KIND, which tells rest from an impact."""
-    if not begins_contact(event):
-        return DETACHMENT
-    return CONTACT_BEGINS if after.mode >> stop_of(event) & 1 else IMPACT
-
-
-@kernel
-def record(
-    plan: Vector,
-    state: Vector,
-    ended: Vector,
-    end: Vector,
-    notes: Vector,
-    samples: Vector,
-    events: Vector,
-) -> None:
-    """Write down one stretch and the event that ends it."""
-    before, t, event, step, arrival, after = stretch_of(state, ended, end)
-    if notes[COUNT]:
-        sample(plan, notes, samples, before, t, math.inf if kind_of(event) == LIMIT else step)
-    if at_stop(event) and notes[WRITTEN] < notes[LAST]:
-        row = beyond(events, EVENT * int(notes[WRITTEN]))
-        row[E_CYCLE], row[E_TIME] = notes[NUMBER], t + step
-        row[E_KIND] = recorded_kind(event, after)
-        row[E_SIDE] = facing(stop_of(event))
-        row[E_U], row[E_V] = after.u, arrival
-        row[E_RIGHT], row[E_LEFT] = (
-            stop_deformation(plan, after, 0),
-            -stop_deformation(plan, after, 1),
-        )
-        row[E_BEFORE] = acceleration(plan, arrived(before.mode, arrival, after))
-        row[E_BEHIND] = acceleration(plan, after)
-        row[E_MEMORY] = after.z
-        notes[WRITTEN] += 1.0

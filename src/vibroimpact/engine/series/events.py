@@ -124,7 +124,7 @@ def shifted(plan: Vector, source: int, quarter: int, series: Vector) -> None:
 
 @inlined
 def verdict(g0: float, g1: float, d0: float, d1: float, bend: float, h: float) -> int:
-    """Tell whether g stays above 0 on (0, h], falls to 0 once, or neither is plain."""
+    """Return 0 if g stays above 0 on (0, h], 1 if it falls to 0 once, 2 if neither is certain."""
     if min(g0, g1) > 0.125 * h * h * bend:
         return 0
     if abs(d0 + d1) > h * bend and d0 * d1 > 0.0:

@@ -52,12 +52,10 @@ class Slot(IntEnum):
     """Where the addresses of a plan's kernels stand: by the stops that push by a power."""
 
     FREE = 0
-    RIGHT = 3
-    LEFT = 6
+    STOP = 3  # of each
     BOTH = 9
     OTHER = 12
-    ROOT_RIGHT = 30
-    ROOT_LEFT = 33
+    ROOT = 30  # of each stop
     OWN = 36  # of the isolator, then of each stop
 
 
@@ -77,11 +75,10 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     """Each kernel that a rig may call, by slot."""
     laws = tuple(module.shape(rig) for module in LAWS)
     right, left = pushed(rig, 0), pushed(rig, 1)
-    found = {Slot.FREE: Shape(laws)}
-    if right:
-        found[Slot.RIGHT] = Shape(laws, right)
-    if left:
-        found[Slot.LEFT] = Shape(laws, left)
+    found: dict[int, Shape] = {Slot.FREE: Shape(laws)}
+    for stop, push in enumerate((right, left)):
+        if push:
+            found[Slot.STOP + STRIDE * stop] = Shape(laws, push)
     if rig[par.stop_at(0) + par.GAP] + rig[par.stop_at(1) + par.GAP] < 0.0 and left:
         found[Slot.OTHER] = Shape(laws, 0, left)
         if right:
@@ -99,10 +96,10 @@ def kernels(rig: Any) -> dict[int, Kernel]:
                 (slopes.valued, slopes.event_series),
                 (which, symbols),
             )
-    for stop, slot in enumerate((Slot.ROOT_RIGHT, Slot.ROOT_LEFT)):
+    for stop in range(2):
         deep = rooted(rig, stop, laws)
         if deep is not None:
-            every[int(slot)] = (root_variable.rooted, root_variable.again), deep
+            every[Slot.ROOT + STRIDE * stop] = (root_variable.rooted, root_variable.again), deep
     return every
 
 
@@ -121,7 +118,7 @@ def rooted(rig: Any, stop: int, laws: tuple[Any, ...]) -> Rooted | None:
 
 
 def laws_code(rig: Any) -> int:
-    """Tell which kernels a rig needs: a bit each for what they may have, and the memory's power."""
+    """Return which kernels a rig needs: a bit for each law, and the power of the memory."""
     code = 0
     code += 1 if rig[par.CUBIC] != 0.0 else 0
     code += 2 if rig[par.QUINTIC] != 0.0 else 0
@@ -183,8 +180,8 @@ def prepare(memory: Vector, rig: Vector) -> None:
     memory[at.ROOTS : at.ROOTS + 4] = np.nan
     addresses = memory.view(np.int64)
     for slot, (formulas, shape) in kernels(rig).items():
-        if slot in (Slot.ROOT_RIGHT, Slot.ROOT_LEFT):
-            stop = 0 if slot == Slot.ROOT_RIGHT else 1
+        if Slot.ROOT <= slot < Slot.OWN:
+            stop = (slot - Slot.ROOT) // STRIDE
             exponent = rig[par.stop_at(stop) + par.EXPONENT]
             memory[at.ROOTS + 2 * stop : at.ROOTS + 2 * stop + 2] = exponent, shape.root
         if not PLAIN:

@@ -85,7 +85,7 @@ class Traced:
     """Functions of a formula on numbers, which keep what the formula may bend with.
 
     A step must not pass a bend that its series does not show: a tanh is flat to rounding at some
-    distance from its bend. How far the functions' arguments move on a step tells.
+    distance from its bend. How far the functions' arguments move on a step limits its length.
     """
 
     def __init__(self, machine: Any, law: Any) -> None:

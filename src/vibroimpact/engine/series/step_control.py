@@ -10,8 +10,7 @@ from vibroimpact.engine.forcing.dispatch import count, plane, stepped, value, wa
 from vibroimpact.engine.forcing.several import raised
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import RATE, SCALED_A, SCALED_W, WAVE_C, WAVE_S, H
-from vibroimpact.engine.motion import Clock
-from vibroimpact.engine.series.kernels import AGAIN, CALM, Slot, drags_any_power, lacks, run
+from vibroimpact.engine.series.kernels import AGAIN, CALM, STRIDE, Slot, drags_any_power, lacks, run
 from vibroimpact.engine.series.layout import (
     A_T,
     DEGREE,
@@ -37,6 +36,7 @@ from vibroimpact.engine.series.layout import (
 )
 from vibroimpact.engine.series.step import BALANCED
 from vibroimpact.engine.series.values import Frame, Laws
+from vibroimpact.engine.state import Clock
 
 ROUNDING = 2.0**-53
 """Of a number, as a share of it."""
@@ -50,9 +50,9 @@ _LEAST_SHARE = 2.0**-10
 _GONE = 1e50
 """A motion of this size (m) was pushed away for ever and is about to leave the range of numbers."""
 
-_FREE, _RIGHT, _LEFT = int(Slot.FREE), int(Slot.RIGHT), int(Slot.LEFT)
+_FREE, _STOP = int(Slot.FREE), int(Slot.STOP)
 _BOTH, _OTHER = int(Slot.BOTH), int(Slot.OTHER)
-_ROOT = int(Slot.ROOT_RIGHT)
+_ROOT = int(Slot.ROOT)
 (
     _K, _C, _OFFSET, _CUBIC, _QUINTIC, _SINH, _STEEP, _HYSTERETIC, _SLOPE, _BEND, _DRAG, _POWER,
     _PUSH, _PUSH_N, _PUSH_CHI, _PUSH_C, _OTHER_K, _OTHER_N, _OTHER_CHI, _OTHER_C, _APART, _LOAD,
@@ -163,7 +163,7 @@ def slot_of(plan: Vector, laws: Laws, left: bool) -> int:
     """Which kernel has the stops that push, and the drag if it is not left out."""
     slot = _FREE
     if laws.push.stiffness != 0.0:
-        alone = _LEFT if left else _RIGHT
+        alone = _STOP + STRIDE if left else _STOP
         slot = _BOTH if laws.other.stiffness != 0.0 else alone
     elif laws.other.stiffness != 0.0:
         slot = _OTHER

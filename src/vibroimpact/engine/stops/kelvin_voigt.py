@@ -6,8 +6,8 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.layout import FORGOTTEN
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Pair, Row, facing
+from vibroimpact.engine.linear.layout import FORGOTTEN, Row
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Pair, facing
 
 
 @inlined

@@ -15,7 +15,6 @@ from vibroimpact.engine.motion import (
     LEFT,
     RELEASED,
     RIGHT,
-    SETTLING,
     Ended,
     Motion,
     Stretch,
@@ -24,6 +23,7 @@ from vibroimpact.engine.motion import (
     facing,
     main_stop,
 )
+from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, overlapping, place_at, total_gap
 

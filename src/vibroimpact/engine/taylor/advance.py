@@ -25,10 +25,11 @@ from vibroimpact.engine.event import (
 )
 from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.motion import RELEASED, SETTLING, SLIPS, Ended, Motion, changed, facing
+from vibroimpact.engine.motion import RELEASED, SLIPS, Ended, Motion, changed, facing
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.step_control import write_header
+from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.curved import curved_stop
 from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, place_at

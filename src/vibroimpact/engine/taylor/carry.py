@@ -13,8 +13,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
 from vibroimpact.engine.event import DETACHMENT, IMPACT, TURN, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import SETTLING, Motion, Stretch, facing, main_stop
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, meet
+from vibroimpact.engine.motion import Motion, Stretch, facing, main_stop
+from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
     BY_CHI,
     BY_V,
@@ -28,6 +28,7 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
+from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.curved import curved_stop, push_of, stop_force
 from vibroimpact.engine.stops.rigid import resting
 from vibroimpact.engine.taylor.laws import laws_of

@@ -15,17 +15,8 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.window_bounds import ANYWHERE, Enclosed
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.motion import (
-    LEFT,
-    Clock,
-    Motion,
-    changed,
-    facing,
-    main_stop,
-    pack,
-    unpacked,
-)
-from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
+from vibroimpact.engine.motion import LEFT, Motion, changed, facing, main_stop, pack, unpacked
+from vibroimpact.engine.one_mass.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.series.events import PIECES, shifted
 from vibroimpact.engine.series.kernels import SLOPES, run
 from vibroimpact.engine.series.layout import (
@@ -42,6 +33,7 @@ from vibroimpact.engine.series.layout import (
 )
 from vibroimpact.engine.series.step_control import at, hold_still, scale, shake, write_header
 from vibroimpact.engine.series.values import Frame
+from vibroimpact.engine.state import Clock
 from vibroimpact.engine.stops.curved import curved_stop
 from vibroimpact.engine.stops.kelvin_voigt import relaxed_faces
 from vibroimpact.engine.stops.places import total_gap

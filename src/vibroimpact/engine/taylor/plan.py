@@ -9,8 +9,9 @@ from vibroimpact.engine.forcing.dispatch import begin, change_rate, pace
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import WORK_LIMIT
 from vibroimpact.engine.linear.layout import OMEGA
-from vibroimpact.engine.motion import Clock, Motion
+from vibroimpact.engine.motion import Motion
 from vibroimpact.engine.series.step_control import prepare
+from vibroimpact.engine.state import Clock
 
 
 @kernel

@@ -11,7 +11,7 @@ from vibroimpact.engine.forcing.dispatch import stepped
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
-from vibroimpact.engine.series.kernels import Slot
+from vibroimpact.engine.series.kernels import STRIDE, Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.step_control import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
@@ -29,7 +29,7 @@ from vibroimpact.engine.taylor.step_events import (
 from vibroimpact.engine.taylor.step_setup import branched
 from vibroimpact.law_numbers import ABSOLUTE_X
 
-_RIGHT, _LEFT = int(Slot.ROOT_RIGHT), int(Slot.ROOT_LEFT)
+_ROOT = int(Slot.ROOT)
 
 MOST = 50_000
 """Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
@@ -68,7 +68,7 @@ def root_of(plan: Vector, motion: Motion) -> int:
 @kernel
 def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) -> Pressed:
     """What the steps of a stretch are made with that begins with this motion; write its numbers."""
-    mode, stop = motion.mode, main_stop(motion.mode)
+    stop = main_stop(motion.mode)
     unit: float = plan[UNIT]
     branch = branch_of(plan, motion, frame.sign)
     v = frame.sign * motion.v
@@ -81,7 +81,7 @@ def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) 
     if x > 0.0:
         work += x ** (n + 1.0)
     deep = max(work ** (1.0 / (n + 1.0)), 1e-300)
-    slot = _RIGHT if mode == RIGHT else _LEFT
+    slot = _ROOT + STRIDE * stop
     return Pressed(branch.way, slot, unit, push.dissipation / unit, rooted(deep, root))
 
 

@@ -59,7 +59,7 @@ from vibroimpact.engine.taylor.pieces import facing_of
 from vibroimpact.law_numbers import ABSOLUTE_X
 
 SIDE, WAY = NUMBERS + NAMES.index("side"), NUMBERS + NAMES.index("way")
-_OWN, _RIGHT, _LEFT = int(Slot.OWN), int(Slot.RIGHT), int(Slot.LEFT)
+_OWN, _STOP = int(Slot.OWN), int(Slot.STOP)
 _BOTH, _OTHER = int(Slot.BOTH), int(Slot.OTHER)
 
 _FADED = 1e-18
@@ -154,7 +154,7 @@ def own_eases(
     way = facing * plan[WAY]
     run(plan, _OWN + STRIDE * (stop + 1) + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
     slot = int(plan[SLOT]) % CALM
-    pushes = slot == _BOTH or slot == (_RIGHT if stop == 0 else _LEFT)
+    pushes = slot == _BOTH or slot == _STOP + STRIDE * stop
     if stop == 1 and slot == _OTHER:
         pushes = True
     spread = 0.0

@@ -9,11 +9,12 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
-from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion, main_stop
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.step_control import Shaken, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
+from vibroimpact.engine.state import Clock
 from vibroimpact.engine.stops.curved import curved_stop, own_push
 from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.mode_forces import branch_of, stiffness_at

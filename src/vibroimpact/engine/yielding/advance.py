@@ -20,18 +20,18 @@ from vibroimpact.engine.event import (
     stop_of,
 )
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import Row
 from vibroimpact.engine.motion import (
     BOTH,
     RELEASED,
-    SETTLING,
     SLIPPED,
     Ended,
     Motion,
-    Row,
     changed,
     direction,
     main_stop,
 )
+from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, place_at
 from vibroimpact.engine.stops.rigid import impact, rigid, settle

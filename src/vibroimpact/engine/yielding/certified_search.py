@@ -9,11 +9,10 @@ from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import moved
 from vibroimpact.engine.linear.flight import leave
-from vibroimpact.engine.linear.layout import MIDDLE, ORDER, RATE, TAYLOR, H
+from vibroimpact.engine.linear.layout import MIDDLE, ORDER, RATE, TAYLOR, H, Row
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import ABOVE, BELOW
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.monotone_motion import (
     AHEAD,
     BEGUN,

@@ -16,10 +16,9 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
 from vibroimpact.engine.linear.evaluate import node, scaled_acceleration, travel
 from vibroimpact.engine.linear.flight import parted
-from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
+from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H, Row
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.linear.table_search import ended, next_window
-from vibroimpact.engine.motion import Row
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
 from vibroimpact.engine.yielding.certified_search import careful
 from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E

@@ -112,7 +112,7 @@ function show(next) {
   history.replaceState(null, "", `#${state.address}`);
 }
 
-// A line of evidence, in which other scenarios tell their meaning.
+// A line of evidence, in which other scenarios show their meaning.
 function explained(text) {
   const line = document.createElement("li");
   for (const part of text.split(/\b(S[0-6])\b/)) {

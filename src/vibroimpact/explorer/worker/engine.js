@@ -5,7 +5,7 @@ const LINE = 64;
 const ARGUMENT = /(?:UniTuple\((?:f8|i8), (\d)\))|(f8|i8|boolean|void)(\[[:, 1]*\])?/g;
 
 export class Engine {
-  // `layout` is what Python tells of the engine: signatures, positions and sizes.
+  // `layout` is what Python states of the engine: signatures, positions and sizes.
   constructor(instance, layout) {
     this.code = instance.exports;
     this.layout = layout;

@@ -20,7 +20,6 @@ function drawn(state, made, frequency, count, samples, facts, layout) {
   const push = movesBase(of) ? 0 : state.amplitude * (of === "unbalance" ? omega ** 2 : 1);
   const force = Array.from(acceleration, (a, k) => push * Math.sin((2 * Math.PI * (k % samples)) / samples) + rig.force - rig.mass * a);
   const [, size, symbol] = fitting(force, facts.quantities.force);
-  const touched = { right: [1, 2], left: [-1, 2] };
   const found = {
     picture: "motion",
     direction: state.direction,
@@ -35,11 +34,11 @@ function drawn(state, made, frequency, count, samples, facts, layout) {
     touching: {},
     gaps: {},
   };
-  for (const side of SIDES) {
+  for (const [number, side] of SIDES.entries()) {
     const stop = rig[side];
     found.gaps[side] = stop ? one(1e3 * SIGN[side] * stop.gap) : null;
-    found[side] = stop ? short(rows[side === "right" ? at.RIGHT_FACE : at.LEFT_FACE].map((face) => 1e3 * (SIGN[side] * stop.gap + face))) : null;
-    if (stop) found.touching[side] = Array.from(rows[at.CONTACT], (contact) => Number(touched[side].includes(contact)));
+    found[side] = stop ? short(rows[at.DEFORMATION + number].map((depth) => 1e3 * SIGN[side] * (stop.gap + depth))) : null;
+    if (stop) found.touching[side] = Array.from(rows[at.TOUCHED], (mode) => (mode >> number) & 1);
   }
   return found;
 }
@@ -73,17 +72,17 @@ export function largestMultiplier(columns, parts) {
 
 export function mirrored(vector, { motion: at }) {
   const image = Array.from(vector);
-  const swap = [0, at.LEFT, at.RIGHT, at.BOTH];
-  image[at.MODE] = swap[vector[at.MODE]];
+  const mode = vector[at.MODE];
+  image[at.MODE] = ((mode & 1) << 1) | (mode >> 1);
   image[at.U] = -vector[at.U];
   image[at.V] = -vector[at.V];
-  [image[at.RIGHT_BUMPER], image[at.LEFT_BUMPER]] = [vector[at.LEFT_BUMPER], vector[at.RIGHT_BUMPER]];
+  [image[at.DEFORMATION], image[at.DEFORMATION + 1]] = [vector[at.DEFORMATION + 1], vector[at.DEFORMATION]];
   return image;
 }
 
 // Largest difference of two states, as a displacement over a size.
 export function apart(one, other, omega, { motion: at }) {
-  const differences = [[at.U, 1], [at.V, omega], [at.RIGHT_BUMPER, 1], [at.LEFT_BUMPER, 1]].map(([k, unit]) => Math.abs(one[k] - other[k]) / unit);
+  const differences = [[at.U, 1], [at.V, omega], [at.DEFORMATION, 1], [at.DEFORMATION + 1, 1]].map(([k, unit]) => Math.abs(one[k] - other[k]) / unit);
   return Math.max(...differences);
 }
 
@@ -153,7 +152,7 @@ export function careful(engine, state, data, facts) {
   const impacts = made.events.filter((event) => event[at.E_KIND] !== at.DETACHMENT);
   const hits = impacts.map((event) => ({
     time: one(event[at.E_CYCLE] / frequency + event[at.E_TIME]),
-    stop: event[at.E_SIDE] > 0 ? "right" : "left",
+    stop: SIDES[event[at.E_STOP]],
     speed: one(1e3 * Math.abs(event[at.E_V])),
   }));
   return {

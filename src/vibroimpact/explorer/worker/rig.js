@@ -7,6 +7,8 @@ export const SIDES = ["right", "left"];
 const SIGN = { right: 1, left: -1 };
 // A mass this close to a stop touches it, over the gap and the motion's size.
 const TOUCHING = 1e-12;
+// The mode in which both stops are touched, a bit each.
+const BOTH = 3;
 
 export const kindOf = (stop) => (stop ? (stop.kind ?? "kelvin-voigt") : "none");
 const rigid = (stop) => kindOf(stop) === "rigid";
@@ -142,10 +144,10 @@ export function engineState(rig, u, v, layout) {
   const at = layout.motion;
   const faces = { right: 0, left: 0 };
   let [mode, parted] = [at.FLIGHT, at.FLIGHT];
-  for (const side of SIDES) {
+  for (const [number, side] of SIDES.entries()) {
     const stop = rig[side];
     if (!stop) continue;
-    const [sign, bit] = [SIGN[side], side === "right" ? at.RIGHT : at.LEFT];
+    const [sign, bit] = [SIGN[side], 1 << number];
     const slack = TOUCHING * Math.max(Math.abs(stop.gap), Math.abs(u), Math.abs(v) / omegaOf(rig));
     const [reach, closing] = [sign * u - stop.gap, sign * v];
     let touches = false;
@@ -166,14 +168,15 @@ export function engineState(rig, u, v, layout) {
     }
     faces[side] = depth;
   }
-  if (mode === at.BOTH && rig.right.gap + rig.left.gap >= 0) {
+  if (mode === BOTH && rig.right.gap + rig.left.gap >= 0) {
     const [right, left] = [u - rig.right.gap, -u - rig.left.gap];
-    mode = right > left || (right === left && v >= -v) ? at.RIGHT : at.LEFT;
+    mode = 1 << (right > left || (right === left && v >= -v) ? 0 : 1);
   }
   const state = new Array(layout.state).fill(0);
   state[at.MODE] = mode;
-  state[at.FRESH] = parted === at.RIGHT || parted === at.LEFT ? parted : mode;
-  [state[at.U], state[at.V], state[at.RIGHT_BUMPER], state[at.LEFT_BUMPER]] = [u, v, faces.right, faces.left];
+  state[at.FRESH] = parted && parted !== BOTH ? parted : mode;
+  [state[at.U], state[at.V]] = [u, v];
+  for (const [number, side] of SIDES.entries()) state[at.DEFORMATION + number] = faces[side];
   return state;
 }
 
@@ -236,7 +239,7 @@ export function moved(state, path, value, facts) {
   return placed(changes);
 }
 
-// The amplitude, of the quantity that its unit tells.
+// The amplitude, of the quantity that its unit implies.
 function sized(state, value, facts) {
   let first = null;
   for (const of of [state.of, ...Object.keys(facts.amplitudes)]) {

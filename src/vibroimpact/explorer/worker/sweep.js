@@ -155,9 +155,9 @@ export function curves(state, data, fine, facts, layout) {
       const [, size, symbol] = fitting([most(lists)], facts.quantities[quantity]);
       panels.push(panel(name, scaled(lists, 1 / size), beside?.map((x) => x / size) ?? null, symbol));
     };
-    const largest = (...columns) => each((row) => Math.max(...SIDES.map((side, k) => (rig[side] ? row[columns[k]] : 0))) * rig.mass);
+    const largest = (column) => each((row) => Math.max(...SIDES.map((side, number) => (rig[side] ? row[column + number] : 0))) * rig.mass);
     if (still) inUnit("transmitted force", scaled(peak(at.T_LEAST, at.T_MOST), rig.mass), "force", free.carried.map((x) => 0.5 * x * rig.mass + Math.abs(rig.force)));
-    for (const [name, lists, quantity] of [["force", largest(at.FORCE_RIGHT, at.FORCE_LEFT), "force"], ["impulse", largest(at.IMPULSE_RIGHT, at.IMPULSE_LEFT), "impulse"]]) {
+    for (const [name, lists, quantity] of [["force", largest(at.FORCE), "force"], ["impulse", largest(at.IMPULSE), "impulse"]]) {
       const known = lists.map((list) => list.map((x) => (Number.isFinite(x) ? x : NaN)));
       if (most(known) > 0) inUnit(name, known, quantity);
     }

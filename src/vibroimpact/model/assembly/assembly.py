@@ -265,7 +265,7 @@ class Assembly(System):
                 for end in ("left", "right"):
                     check_body(getattr(found[name], end), names, f"{where}.{end}")
             read[part] = FrozenMapping(found)
-        carried.warn()
+        carried.warn(read["links"])
         return read
 
     @model_validator(mode="after")
@@ -312,6 +312,11 @@ class Assembly(System):
         """Names of the masses, links and stops, by the dims of datasets."""
         parts = {"mass": self.names, "link": self.links, "stop": self.stops}
         return {dim: np.array(list(names), dtype=np.str_) for dim, names in parts.items()}
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What was assumed to read the links, one line each, which is in the notes of results."""
+        return tuple(link.assumption for link in self.links.values() if link.assumption)
 
     @property
     def mass_matrix(self) -> NDArray[np.float64]:

@@ -50,7 +50,7 @@ class CarriedMasses:
             ends = _ends(link)
             if all(end == GROUND or end in self._names for end in ends):
                 self._ends[name] = ends
-        self._assumed: list[tuple[str, float, list[str]]] = []
+        self._assumed: dict[str, tuple[str, float, list[str]]] = {}
 
     def of(self, name: str, left: str, right: str, keys: Sequence[str]) -> float:
         """Return the mass (kg) that a link carries.
@@ -90,22 +90,18 @@ class CarriedMasses:
         mass = sum(self._masses[one] for one in carried)
         if len(carried) > 1:
             own = [one for one in self._masses if one in carried]  # in the order of the user
-            self._assumed.append((f"links.{name}.{keys[0]}", mass, own))
+            self._assumed[name] = (f"links.{name}.{keys[0]}", mass, own)
         return mass
 
-    def warn(self) -> None:
-        """Issue a warning for each link whose mass was assumed to be that of several bodies."""
-        for where, mass, carried in self._assumed:
+    def warn(self, links: Mapping[str, Link]) -> None:
+        """Warn of each link whose mass was assumed to be that of several bodies; it states this."""
+        for name, (where, mass, carried) in self._assumed.items():
             with written_for(self):
                 what = pretty(mass, MASS)
             names = listed([repr(one) for one in carried])
-            warn_of_input(
-                where,
-                [
-                    f"the mass that this link carries is assumed to be {what}, that of {names}; to "
-                    "state it, add carries"
-                ],
-            )
+            assumed = f"the mass that this link carries is assumed to be {what}, that of {names}"
+            links[name]._assumes(f"{where}: {assumed}")
+            warn_of_input(where, [f"{assumed}; to state it, add carries"])
 
 
 def _ends(link: Any) -> tuple[Any, Any]:

@@ -13,6 +13,7 @@ from vibroimpact.model.assembly.damping import AnyDamping, ModalDamping, Rayleig
 from vibroimpact.model.assembly.link import Link
 from vibroimpact.model.assembly.names import GROUND, check_part_name
 from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import STIFFNESS
 from vibroimpact.model.size_checks import doubt_damping_ratio
 from vibroimpact.model.system import Units
@@ -21,6 +22,7 @@ from vibroimpact.model.validation import Accepts
 _STIFFNESS = Accepts(STIFFNESS, above=0.0)
 
 
+@public
 def chain(
     masses: Sequence[float | str] | Mapping[str, float | str],
     stiffnesses: Sequence[float | str],
@@ -80,8 +82,6 @@ def chain(
             f"stiffnesses: {len(springs)} for {len(named)} masses; pass one stiffness per mass, "
             "that of the link below it"
         )
-    if not isinstance(damping, str) or damping not in ("modal", "rayleigh"):
-        raise InputError(f"damping: {shown(damping)}; use 'modal' or 'rayleigh'")
     if damping == "modal" and rayleigh_modes is not None:
         raise InputError(
             "rayleigh_modes: passed without damping='rayleigh'; remove it, or set the damping"

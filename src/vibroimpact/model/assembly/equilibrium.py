@@ -15,6 +15,10 @@ computed from the linear equations of the stops that are pressed.
 
 A free motion, which no spring opposes, stays near u = 0, by a term ½ ε |u − u_k|² about the last
 iterate u_k. This term vanishes where the iterates converge.
+
+Masses that no force reaches move exactly as the mass or the base on which they hang, and bodies
+touch exactly at a rigid stop that they press: the rounding of a step depends on the order of the
+masses, and would decide which stops are closed.
 """
 
 from __future__ import annotations
@@ -223,12 +227,84 @@ def _minimum(assembly: Assembly) -> Vector:
         reached = _residual(problem, u)
         if reached <= _EXACT * max(first, _size(problem, u)) + _rounding(problem, u):
             _check_reach(problem, u)
-            return u
+            near = _near(problem, u)
+            return _alike(assembly, _touching(assembly, _alike(assembly, u), near))
     _check_reach(problem, u)
     raise InputError(
         f"forces: no equilibrium was found in {_MOST_STEPS} steps (residual {reached:.3g} N); "
         "change the constant forces or the preloads, or use links without softening"
     )
+
+
+def _touching(assembly: Assembly, u: Vector, near: float) -> Vector:
+    """Return u with a clearance of 0 at the rigid stops whose clearance is below a length."""
+    base = len(u)
+    stops = [one for one in assembly.stops.values() if one.stop.rigid]
+    left = [_column(assembly, one.left) for one in stops]
+    right = [_column(assembly, one.right) for one in stops]
+    at, gaps = np.append(u, 0.0), [one.stop.gap for one in stops]
+    todo = [f for f in range(len(stops)) if abs(at[left[f]] - at[right[f]] - gaps[f]) <= near]
+    exact = {base}
+    while todo:
+        # A body that touches another one whose displacement is exact follows it.
+        f = next((f for f in todo if (left[f] in exact) != (right[f] in exact)), todo[0])
+        todo.remove(f)
+        if left[f] in exact and right[f] not in exact:
+            at[right[f]] = at[left[f]] - gaps[f]
+        elif left[f] not in exact:
+            at[left[f]] = at[right[f]] + gaps[f]
+        exact |= {left[f], right[f]}
+    return at[:base]
+
+
+def _column(assembly: Assembly, end: str) -> int:
+    """Return the number of a mass, or for the ground the count of the masses."""
+    names = assembly.names
+    return names.index(end) if end in names else len(names)
+
+
+def _alike(assembly: Assembly, u: Vector) -> Vector:
+    """Return u with equal displacements where nothing deforms the links between masses."""
+    base = len(u)
+    beside: list[list[int]] = [[] for _ in range(base + 1)]
+    for link in assembly.links.values():
+        if link.isolator.linear_and_bounded != (0.0, 0.0):
+            left, right = _column(assembly, link.left), _column(assembly, link.right)
+            beside[left].append(right)
+            beside[right].append(left)
+    stops = [
+        (_column(assembly, stop.left), _column(assembly, stop.right), stop.stop.gap)
+        for stop in assembly.stops.values()
+    ]
+    forced = {int(i) for i in np.flatnonzero(assembly.constant_force)}
+
+    def linked(starts: set[int], barred: set[int]) -> set[int]:
+        reached, todo = set(starts), list(starts)
+        while todo:
+            new = [i for i in beside[todo.pop()] if i not in reached and i not in barred]
+            reached.update(new)
+            todo += new
+        return reached
+
+    at = np.append(u, 0.0)
+    for host in (base, *range(base)):
+        moved = linked((forced | {base}) - {host}, {host})
+        while True:
+            others = set(range(base)) if host == base else linked({host}, moved)
+            alike = others - moved - {host}
+            aligned = at.copy()
+            aligned[list(alike)] = at[host]
+            pressed = {
+                end
+                for left, right, gap in stops
+                if aligned[left] - aligned[right] - gap > 0.0
+                for end in alike.intersection((left, right))
+            }
+            if not pressed:
+                break
+            moved = linked(moved | pressed, {host})
+        at = aligned
+    return at[:base]
 
 
 def _share(problem: _Problem, u: Vector, way: Vector) -> float:
@@ -350,10 +426,7 @@ def _stop_forces(problem: _Problem, u: Vector) -> tuple[Vector, Vector, Vector]:
     friction at rest any within ±F_c.
     """
     depth = problem.rows @ u - problem.gaps
-    # Gaps may be far below the displacement that the forces would cause without stops.
-    free = float(np.abs(problem.force).max(initial=0.0)) / _stiffness(problem)
-    lengths = (np.abs(u).max(initial=0.0), np.abs(problem.gaps).max(initial=0.0), free)
-    near = 1e-12 * float(sum(lengths))
+    near = _near(problem, u)
     least, most = problem.low.copy(), problem.high.copy()
     bumper = problem.compliance > 0.0
     pressed = np.maximum(depth, 0.0) / np.where(bumper, problem.compliance, 1.0)
@@ -363,6 +436,14 @@ def _stop_forces(problem: _Problem, u: Vector) -> tuple[Vector, Vector, Vector]:
     least[slid] = problem.high[slid]
     inside = ~bumper & (depth > near) & ~np.isfinite(problem.high)
     return least, most, np.where(inside, depth, 0.0)
+
+
+def _near(problem: _Problem, u: Vector) -> float:
+    """Return the length (m) below which a depth is rounding."""
+    # Gaps may be far below the displacement that the forces would cause without stops.
+    free = float(np.abs(problem.force).max(initial=0.0)) / _stiffness(problem)
+    lengths = (np.abs(u).max(initial=0.0), np.abs(problem.gaps).max(initial=0.0), free)
+    return 1e-12 * float(sum(lengths))
 
 
 def _residual(problem: _Problem, u: Vector) -> float:

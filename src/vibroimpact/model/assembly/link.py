@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, TypeAlias, cast, get_args
 
 from pydantic import ConfigDict, field_validator, model_serializer, model_validator
@@ -56,7 +56,7 @@ class Link(Model):
     Link(ground → base, Bumper(stiffness=60 MN/m, damping=900 kN s/m, gap=100 mm, memory=15 ms))
     """
 
-    model_config = ConfigDict(arbitrary_types_allowed=True)
+    model_config = ConfigDict(arbitrary_types_allowed=True, ignored_types=(cached_property,))
 
     left: str
     right: str
@@ -88,6 +88,19 @@ class Link(Model):
     @model_serializer
     def _as_table(self) -> dict[str, Any]:
         return {"left": self.left, "right": self.right, **self.law.model_dump()}
+
+    @cached_property
+    def _assumption(self) -> str:
+        return ""
+
+    @property
+    def assumption(self) -> str:
+        """What was assumed to read the law from a table: an empty string if nothing was."""
+        return self._assumption
+
+    def _assumes(self, text: str) -> None:
+        """Set `assumption`, which copies with changes do not have."""
+        vars(self)["_assumption"] = text
 
     @property
     def is_stop(self) -> bool:

@@ -20,6 +20,8 @@ from vibroimpact.engine.memory import beyond
 
 _CHATTERED = 1e-6
 """See `assembly.events`."""
+_OVERLOADED = 1e-14
+"""Share by which rounding may exceed the largest force of friction, as where it is watched."""
 _ZERO = 1e-15
 """Share of a size below which a coefficient is rounding."""
 _LIMIT = of.NUMBERS + par.YIELD
@@ -151,7 +153,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
         place = int(plan[at.ROOM])
         accelerations_of_all(plan, y, deformation, place)
         forces = place + n + 1 + int(plan[at.PRESSED])
-        worst, most, force = -1, 1.0, 0.0
+        worst, most, force = -1, 1.0 + _OVERLOADED, 0.0
         for j in range(int(plan[at.RESTING])):
             f = int(plan[int(plan[at.RESTING_LIST]) + j])
             if not is_link(plan, f):

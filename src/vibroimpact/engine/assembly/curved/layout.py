@@ -52,7 +52,7 @@ NEW = 1.0
 """In the place of how far to leap: the branches of the links are still to be found."""
 
 V_FRESH, SIDE_FRESH = 1, 2
-"""What is zero at a link's row by construction: s′, and what tells its side or that it yields."""
+"""What is zero at a link's row by construction: s′, and the function of its side or yield."""
 
 DEPTH_FRESH, RATE_FRESH, FORCE_FRESH = 1, 2, 3
 """What is zero at a stop that pushes: deformation, its rate (or 1 + χ δ′), a formula's force."""

@@ -31,6 +31,8 @@ _CUT = 100
 """How often a step is shortened at most. Far sooner it is so short that any is right."""
 _LEAST_SHARE = 2.0**-10
 """To which a step is shortened at once at most."""
+_LARGEST = 1e290
+"""Coefficient of which multiples and sums are finite."""
 
 
 @kernel
@@ -168,7 +170,7 @@ def take_step(
         expand_all(plan, y, deformation, unit, of.ORDER)
         order = int(plan[at.ORDER])
         before, last = _last(plan, order - 1, rate), _last(plan, order, rate)
-        if before + last < math.inf:
+        if before + last < _LARGEST:
             break
         unit *= 2.0**-16
     bound = TOLERANCE * (1.0 if order == of.ORDER else _MORE) * (size + 1e-300)

@@ -110,7 +110,7 @@ class Tape:
     def number(self, value: float) -> Node:
         """Return a number that the formula has itself."""
         one = Node(self, CONSTANT, value=value)
-        one.partner = one  # which tells that the value is the number
+        one.partner = one  # which marks a value that is the number
         return one
 
     def exponential(self, one: Node) -> Node:

@@ -17,7 +17,6 @@ from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import (
     LEFT,
-    MODE,
     RIGHT,
     Motion,
     arrived,
@@ -26,13 +25,13 @@ from vibroimpact.engine.motion import (
     stretch_of,
     unpacked,
 )
-from vibroimpact.engine.state import DAMPING, HITS
+from vibroimpact.engine.state import DAMPING, HITS, MODE, ONE_MASS
 
-DISTURBANCE = 5
+DISTURBANCE = ONE_MASS.total
 """Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3), and
 what the isolator remembers."""
 
-MEMORY = 4
+MEMORY = ONE_MASS.of_point.memory()
 
 
 @kernel

@@ -14,7 +14,8 @@ from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, facing, stretch_of
+from vibroimpact.engine.motion import facing, stretch_of
+from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
 from vibroimpact.engine.stops.places import gap_of
 from vibroimpact.engine.stops.rigid import impact_depth

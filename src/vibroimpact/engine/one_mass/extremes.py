@@ -1,8 +1,7 @@
 """Exact extremes of displacement, absolute acceleration and contact forces over a stretch.
 
-The largest sample is never the maximum. Each piece's series is walked with
-steps on which either the slope or the curvature provably keeps its sign, so that every local
-extreme is found and polished (docs/theory.md, section 4).
+The largest sample is never the maximum: each piece's series is searched (`extreme_search`), unless
+its bounds lie within what was seen before.
 """
 
 from __future__ import annotations
@@ -25,81 +24,16 @@ from vibroimpact.engine.dispatch import (
     rest_level,
 )
 from vibroimpact.engine.event import begins_contact, stop_of
+from vibroimpact.engine.extreme_search import searching
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import (
-    FLIGHT,
-    LEFT,
-    Motion,
-    direction,
-    facing,
-    main_stop,
-    stretch_of,
-)
+from vibroimpact.engine.motion import LEFT, Motion, direction, facing, main_stop, stretch_of
+from vibroimpact.engine.state import FLIGHT, ONE_MASS
 from vibroimpact.engine.stops.rigid import rigid, struck
-
-_SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
-
-
-def searching(jet: Any) -> Any:
-    """Make the search for the extremes of a function over [low, high].
-
-    `jet(of, y)` gives its value, its first two derivatives, and a bound on the third one from there
-    on. It extends [least, most], and returns as `series_extremes`.
-    """
-
-    def search(
-        of: Any, low: float, high: float, least: float, most: float
-    ) -> tuple[float, float, float, float]:
-        at_least = low
-        at_most = low
-        p = low
-        width = high - low
-        f, f1, f2, third = jet(of, p)
-        least, most = min(least, f), max(most, f)
-        if not third < math.inf:
-            return least, most, at_least, at_most  # of a motion that runs away
-        while p < high:
-            width = min(width, high - p)
-            steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
-            if not (steep or abs(f2) >= third * width or width < _SMALLEST):
-                width *= 0.5
-                continue
-            g, g1, g2, beyond = jet(of, p + width)
-            if not steep and f1 * g1 < 0.0:
-                # One critical point: regula falsi kept in its bracket by Newton's slope.
-                a, b = p, p + width
-                y = a - f1 * width / (g1 - f1)
-                for _ in range(60):
-                    e, e1, e2, _ = jet(of, y)
-                    if e < least:
-                        least, at_least = e, y
-                    if e > most:
-                        most, at_most = e, y
-                    if e1 * f1 > 0.0:
-                        a = y
-                    else:
-                        b = y
-                    new = y - e1 / e2 if e2 != 0.0 else 0.5 * (a + b)
-                    if not a < new < b:
-                        new = 0.5 * (a + b)
-                    if abs(new - y) < 1e-10:  # the value is then right to 1e-20
-                        break
-                    y = new
-            p += width
-            if g < least:
-                least, at_least = g, p
-            if g > most:
-                most, at_most = g, p
-            f1, f2, third = g1, g2, beyond
-            width *= 4.0
-        return least, most, at_least, at_most
-
-    return inlined(search)
 
 
 @inlined
@@ -168,18 +102,22 @@ def pushed(
     return max(most, force)
 
 
-U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT = range(6)
-"""Of the notes: range of the displacement (m) and of the absolute acceleration (m/s²), contacts
-begun."""
-FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT = range(6, 10)
-"""Then the largest force of a stop, infinite of a rigid one that is struck, and the largest
-impulse of an impact on a rigid one, per unit mass (m/s², m/s)."""
-NOTES = 10
+U_LEAST, U_MOST, A_LEAST, A_MOST = range(4)
+"""Of the notes: range of the displacement (m) and of the absolute acceleration (m/s²)."""
+HITS, FORCE, IMPULSE, NOTES = (A_MOST + 1 + n * ONE_MASS.stops for n in range(4))
+"""Then, a number for each stop: contacts begun, the largest force, infinite of a rigid stop that is
+struck, and the largest impulse of an impact on a rigid one, per unit mass (m/s², m/s)."""
 
 T_LEAST, T_MOST = NOTES, NOTES + 1
 MEASURES = NOTES + 2
 """What is measured are the notes, contacts per cycle, and the range of the force on the base per
 unit mass (m/s²)."""
+
+
+def by_stop(first: int) -> list[int]:
+    """Places of what is noted of each stop, from that of stop 0."""
+    return [first + stop for stop in range(ONE_MASS.stops)]
+
 
 notes_room = stack(NOTES)
 """Room for them."""
@@ -188,7 +126,7 @@ notes_room = stack(NOTES)
 @kernel
 def nothing(plan: Vector, notes: Vector) -> None:
     """See `flow.nothing`."""
-    for i in range(HITS_RIGHT, NOTES):
+    for i in range(HITS, NOTES):
         notes[i] = 0.0
     notes[U_LEAST], notes[A_LEAST] = math.inf, math.inf
     notes[U_MOST], notes[A_MOST] = -math.inf, -math.inf
@@ -203,7 +141,7 @@ def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vec
     a_least, a_most = notes[A_LEAST], notes[A_MOST]
     series, room = workspace(), chords()
     sign = direction(before.mode)
-    x, pressed = coordinate(plan, before), FORCE_RIGHT + main_stop(before.mode)
+    x, pressed = coordinate(plan, before), FORCE + main_stop(before.mode)
     # What was seen before, in the mode's own coordinate: a piece within it is passed over.
     offset = displacement(plan, before.mode, 0.0)
     seen_least, seen_most = sign * (u_least - offset), sign * (u_most - offset)
@@ -248,7 +186,7 @@ def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vec
             part = Part(high, s, c)
             for stop in range(2):
                 if before.mode >> stop & 1:
-                    at = FORCE_RIGHT + stop
+                    at = FORCE + stop
                     notes[at] = pushed(plan, cursor, before, stop, part, series, notes[at])
         cursor = next_piece(plan, cursor)
     new_least, new_most = x_least < seen_least, x_most > seen_most
@@ -263,7 +201,7 @@ def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vec
     for stop in range(2):
         change = struck(stretch, stop)
         if change > 0.0:
-            notes[FORCE_RIGHT + stop] = math.inf
-            notes[IMPULSE_RIGHT + stop] = max(notes[IMPULSE_RIGHT + stop], change)
+            notes[FORCE + stop] = math.inf
+            notes[IMPULSE + stop] = max(notes[IMPULSE + stop], change)
     if begins_contact(event):
-        notes[HITS_RIGHT + stop_of(event)] += 1.0
+        notes[HITS + stop_of(event)] += 1.0

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import (
     accelerated,
@@ -35,7 +33,6 @@ from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
-    SETTLING,
     Motion,
     Stretch,
     arrived,
@@ -45,8 +42,6 @@ from vibroimpact.engine.motion import (
     stretch_of,
 )
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
-from vibroimpact.engine.observers.margin import leading_sign
 from vibroimpact.engine.observers.phases import (
     A_EVENT,
     A_LEAST,
@@ -73,13 +68,14 @@ from vibroimpact.engine.observers.phases import (
     U_LEAST,
     WORK,
 )
+from vibroimpact.engine.one_mass.extremes import Part, pushed, series_extremes
+from vibroimpact.engine.one_mass.margin import leading_sign
+from vibroimpact.engine.one_mass.record import recorded_kind
+from vibroimpact.engine.quadrature import ABSCISSAE, WEIGHTS
+from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import closing_speed, relaxed_loss
 from vibroimpact.engine.stops.places import total_gap
 from vibroimpact.engine.stops.rigid import rigid
-
-_X, _W = np.polynomial.legendre.leggauss(12)
-ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
-WEIGHTS = tuple(float(w) for w in 0.5 * _W)
 
 
 class Range(NamedTuple):
@@ -244,7 +240,7 @@ def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, r
 def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the stop that it is at loses."""
     before, _, event, _, arrival, after = stretch
-    stop, kind = stop_of(event), record.recorded_kind(event, after)
+    stop, kind = stop_of(event), recorded_kind(event, after)
     row[KIND], row[AT_STOP] = kind, stop
     if kind == record.IMPACT:
         row[STRUCK] = abs(arrival - after.v)

@@ -8,25 +8,27 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch, one_mass_channels
+from vibroimpact.engine import dispatch, event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import dispatch as forcing
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
-from vibroimpact.engine.motion import FACES, MODE, STATE, Motion, changed, pack, unpacked
+from vibroimpact.engine.motion import FACES, STATE, Motion, changed, pack, swapped, unpacked
 from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
-from vibroimpact.engine.observers import demand as demands
-from vibroimpact.engine.observers import extremes as ranges
-from vibroimpact.engine.observers import margin as margins
-from vibroimpact.engine.observers import measure as phases
-from vibroimpact.engine.observers import record as recording
-from vibroimpact.engine.observers import tangent as disturbances
-from vibroimpact.engine.observers.extremes import (
+from vibroimpact.engine.one_mass import channels
+from vibroimpact.engine.one_mass import demand as demands
+from vibroimpact.engine.one_mass import extremes as ranges
+from vibroimpact.engine.one_mass import margin as margins
+from vibroimpact.engine.one_mass import measure as phases
+from vibroimpact.engine.one_mass import record as recording
+from vibroimpact.engine.one_mass import tangent as disturbances
+from vibroimpact.engine.one_mass.advance import advance as advanced
+from vibroimpact.engine.one_mass.extremes import (
     A_LEAST,
     A_MOST,
-    HITS_RIGHT,
+    HITS,
     MEASURES,
     NOTES,
     T_LEAST,
@@ -34,7 +36,7 @@ from vibroimpact.engine.observers.extremes import (
     U_LEAST,
     U_MOST,
 )
-from vibroimpact.engine.state import ARRIVAL, FIRST, STEP, copy
+from vibroimpact.engine.state import ARRIVAL, FIRST, FRESH, MODE, ONE_MASS, STEP, copy
 from vibroimpact.engine.stops import curved, kelvin_voigt, rigid
 
 nothing, extremes, margin = ranges.nothing, ranges.extremes, margins.margin
@@ -46,12 +48,12 @@ unit_disturbances, tangent, mirror = (
     disturbances.mirror,
 )
 first_piece, next_piece, series = (
-    one_mass_channels.first_piece,
-    one_mass_channels.next_piece,
-    one_mass_channels.series,
+    channels.first_piece,
+    channels.next_piece,
+    channels.series,
 )
 
-PARTS = disturbances.DISTURBANCE
+PARTS = ONE_MASS.total
 """u, u̇, u_R, u_L, z."""
 
 _FORGOTTEN = 9.0
@@ -85,12 +87,12 @@ def parts(plan: Vector) -> int:
 
 @kernel
 def coordinates(plan: Vector) -> int:
-    return 2
+    return 2 * ONE_MASS.masses
 
 
 @kernel
 def stops(plan: Vector) -> int:
-    return 2
+    return ONE_MASS.stops
 
 
 @kernel
@@ -206,7 +208,7 @@ def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> in
 
 @kernel
 def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
-    event, step, arrival, motion = flow_dispatch.advance(plan, unpacked(before), limit)
+    event, step, arrival, motion = advanced(plan, unpacked(before), limit)
     ended[STEP], ended[ARRIVAL] = step, arrival
     pack(motion, after)
     return event
@@ -269,6 +271,17 @@ def look_again(plan: Vector, again: int) -> int:
 def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
     copy(notes, result, NOTES)
     for stop in range(2):
-        result[HITS_RIGHT + stop] = notes[HITS_RIGHT + stop] / cycles
+        result[HITS + stop] = notes[HITS + stop] / cycles
     result[T_LEAST] = plan[par.LOAD] - other[A_MOST]
     result[T_MOST] = plan[par.LOAD] - other[A_LEAST]
+
+
+def mirror_image(state: Vector) -> Vector:
+    """Return the mirror image of a state vector: what moves right moves left."""
+    image = state.copy()
+    for at in (MODE, FRESH):
+        image[at] = swapped(int(state[at]))
+    for at in (DISPLACEMENT, VELOCITY, MEMORY):
+        image[at] = -state[at]
+    image[FACES], image[FACES + 1] = state[FACES + 1], state[FACES]
+    return image

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
-from reference.paper_signs import in_paper_signs
+from reference.paper_signs import in_paper_signs, signed_parts
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.engine_system import engine_rig
 
@@ -51,7 +51,8 @@ def flow(motion: Motion, values) -> np.ndarray:
     right = max(given[2], 0.0) if rig.right else None
     left = max(-given[3], 0.0) if rig.left else None
     start = vi.State(given[0], given[1], {"right": right, "left": left})
-    return vi.simulate(vi.Rig(rig, motion.excitation), 1.0, start, 0)["final_state"].values[:4]
+    end = vi.simulate(vi.Rig(rig, motion.excitation), 1.0, start, 0)["final_state"]
+    return signed_parts(end.values)
 
 
 @examples(60)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.linear.layout import ORDER
-from vibroimpact.engine.observers import extremes
-from vibroimpact.engine.observers.extremes import series_extremes
-from vibroimpact.engine.observers.margin import slope_series
+from vibroimpact.engine.one_mass import extremes
+from vibroimpact.engine.one_mass.extremes import series_extremes
+from vibroimpact.engine.one_mass.margin import slope_series
 
 
 def series(*coefficients: float) -> np.ndarray:

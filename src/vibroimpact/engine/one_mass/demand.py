@@ -10,11 +10,10 @@ import math
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.observers import phases
-from vibroimpact.engine.observers.extremes import IMPULSE_RIGHT, NOTES, nothing
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
-from vibroimpact.engine.state import MODE
+from vibroimpact.engine.one_mass.extremes import IMPULSE, NOTES, nothing
+from vibroimpact.engine.state import FLIGHT, MODE
 
 # Of the notes: first those of `extremes`, impulses summed up; then, if `EVERYTHING` is not 0, the
 # work of the shaking and what is lost in the isolator and in the stops, per unit mass.
@@ -42,8 +41,8 @@ def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
 @kernel
 def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """Add one stretch."""
-    right, left = notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1]
-    notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1] = 0.0, 0.0
+    right, left = notes[IMPULSE], notes[IMPULSE + 1]
+    notes[IMPULSE], notes[IMPULSE + 1] = 0.0, 0.0
     flow.extremes(plan, before, ended, after, notes)
     if before[MODE] != FLIGHT or notes[EVERYTHING] != 0.0:
         row = _row()
@@ -55,5 +54,5 @@ def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Ve
             notes[LOST] += row[phases.LOST]
             for i in range(len(_LOST)):
                 notes[LOST_STOPS] += row[_LOST[i]]
-    notes[IMPULSE_RIGHT] += right
-    notes[IMPULSE_RIGHT + 1] += left
+    notes[IMPULSE] += right
+    notes[IMPULSE + 1] += left

@@ -1,0 +1,11 @@
+"""What the flows of one mass between two stops have in common.
+
+A motion of one mass is a value (`engine.motion`) that the compiler keeps in registers. Only these
+flows know it: `table` unpacks it from the vector of a state and packs it again, once for a call.
+The motion itself is computed by `linear`, `taylor` and `yielding` (see `engine.dispatch`), with the
+stops of `stops`; observers that need more than channels are here, one file each.
+
+Modules: `table` (functions of `engine.flow`), `channels` (what is observed), `extremes`, `margin`
+(distance from grazing), `measure` (phases), `demand` (of records), `record` (written down),
+`tangent` (disturbances).
+"""
