@@ -53,6 +53,7 @@ def test_both_kinds_name_their_stops_and_parts(system, stops, counted, dims):
     assert system.stop_laws[stops[0]].rigid
     assert system.part_names.keys() == dims
     assert system.part_names["stop"].tolist() == stops
+    assert system.assumptions == ()
 
 
 def test_oscillators_in_one_dataset_have_the_stops_that_one_of_them_has():
@@ -64,7 +65,7 @@ def test_oscillators_in_one_dataset_have_the_stops_that_one_of_them_has():
 def test_the_engine_sees_both_kinds_by_the_same_members(system):
     seen = engine_system(system)
     vector = seen.vector_of(seen.read(None))
-    assert len(vector) == seen.width
+    assert len(vector) == seen.places.width == seen.width
     np.testing.assert_array_equal(seen.vector(seen.point(vector), vector[0]), vector)
     assert seen.closing.shape == (seen.stops, seen.masses)
     assert seen.velocities().sum() == seen.masses
