@@ -11,7 +11,7 @@ from benchmarks.peers.smooth_problems import BOUC_WEN, DUFFING, HUNT_CROSSLEY, S
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave, ratio
 from benchmarks.trajectory import optional
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 PERIODS, SCIPY_PERIODS = 200, 50
 _ROUNDS, _SCIPY_ROUNDS = 41, 3

@@ -18,7 +18,7 @@ from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.record import DETACHMENT
 from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.state import EVENT, ONE_MASS, STEP, T, copy, load, state_buffer, width
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST = 0.6, 1.2 / math.tau, 0.3, 20, 100
 

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE, ONE_MASS, Parts
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.one_mass import OneMass
 
 SIZES = [(1, 2, 1), (1, 0, 0), (3, 5, 2)]
 
@@ -34,7 +34,7 @@ def test_each_part_has_a_place(sizes: tuple[int, int, int]) -> None:
 def test_a_state_is_written_where_its_layout_says() -> None:
     stops = {"right": vi.Bumper(2e4, 300.0, 0.01), "left": vi.Bumper(3e4, 200.0, 0.02)}
     oscillator = vi.Oscillator(60.0, vi.Isolator(2e3, 40.0), **stops)
-    states = SectionStates(oscillator)
+    states = OneMass(oscillator)
     state = vi.State(0.012, -0.3, {"right": 0.004, "left": 0.001})
     vector, places = states.vector_of(state), states.places
     assert len(vector) == places.width

@@ -240,7 +240,7 @@ def test_a_formula_of_a_built_in_isolator_is_that_isolator(law: Law, same: Isola
     ],
 )  # fmt: skip
 def test_a_formula_of_a_built_in_stop_is_that_stop(law: Law, same: Bumper) -> None:
-    assert Oscillator(1.0, Isolator(1.0, 0.1), law, law).stops == (same, same)
+    assert Oscillator(1.0, Isolator(1.0, 0.1), law, law).stops == {"right": same, "left": same}
 
 
 def test_softening_and_bounded_laws_know_their_limits() -> None:

@@ -66,7 +66,7 @@ def test_what_is_written_is_read(name):
 
 def numbers(whole: vi.Rig) -> list[float]:
     rig, shaken = whole.oscillator, whole.sine
-    sides = [value for stop in rig.stops for value in dict(stop).values()]
+    sides = [value for stop in rig.stops.values() for value in dict(stop).values()]
     isolator = list(dict(rig.isolator).values())
     found = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
     return [value for value in found if isinstance(value, float)]

@@ -83,7 +83,7 @@ def faults(
     found = [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
     u = data["displacement"].values
     # In contact the displacement is a bumper's gap and its deformation together.
-    gaps = [abs(stop.gap) for stop in rig.stops]
+    gaps = [abs(stop.gap) for stop in rig.stops.values()]
     scale = max(float(np.abs(u).max()), *gaps, 0.0)
     for sign, name in ((1, "right"), (-1, "left")):
         stop = getattr(rig, name)

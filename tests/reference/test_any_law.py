@@ -137,7 +137,7 @@ def test_every_law_has_three_stored_rigs_and_more() -> None:
     assert set(law_states.STATES) == set(CASES)
     laws_seen = [type(one.rig.isolator) for one in CASES.values()]
     assert all(laws_seen.count(law) >= 3 for law in BUILT_IN[ISOLATORS])
-    stops = [type(stop) for one in CASES.values() for stop in one.rig.stops]
+    stops = [type(stop) for one in CASES.values() for stop in one.rig.stops.values()]
     assert all(stops.count(law) >= 3 for law in BUILT_IN[STOPS])
 
 
@@ -181,7 +181,7 @@ def test_every_law_is_under_every_shaking_on_either_side() -> None:
 def test_a_linear_rig_moves_as_by_the_reference_of_linear_rigs() -> None:
     rig, shaken = CASES["linear, bumpers"]
     one = follow(rig, shaken, CYCLES)
-    right, left = (rig_reference.Stop(s.stiffness, s.damping, s.gap) for s in rig.stops)
+    right, left = (rig_reference.Stop(s.stiffness, s.damping, s.gap) for s in rig.stops.values())
     k, c = rig.isolator.stiffness, rig.isolator.damping
     known = rig_reference.Rig(rig.mass, k, c, right, left)
     rest = (0.0, 0.0, 0.0, 0.0)

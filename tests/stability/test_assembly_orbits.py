@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.response.engine_input import system_vector
+from vibroimpact.response.engine_system import system_vector
 from vibroimpact.stability.parameter_family import family
 
 SHAKING = vi.Harmonic("1 m/s2", 0.9)

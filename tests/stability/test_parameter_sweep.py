@@ -9,7 +9,8 @@ import vibroimpact as vi
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.state import MODE, ONE_MASS
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.stability.nearest_state import nearest_state
 from vibroimpact.stability.parameter_sweep import rigs_along, stepped

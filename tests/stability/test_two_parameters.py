@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.response.engine_input import system_vector
+from vibroimpact.response.engine_system import system_vector
 from vibroimpact.stability.parameter_family import RATES
 from vibroimpact.stability.two_parameters import plane
 

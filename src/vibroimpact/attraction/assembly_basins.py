@@ -32,7 +32,6 @@ from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.stability.equivalence import ALIKE, distance, same
@@ -135,8 +134,6 @@ def assembly_basins(
     plan
         The nodes, and how often they are refined.
     """
-    assembly = rig.system
-    assert isinstance(assembly, Assembly)
     search = _Search(rig, start, plane, max_cycles, max_events)
     counts = plan.shape[::-1]
     axes = [np.linspace(one.low, one.high, n) for one, n in zip(plane, counts, strict=True)]
@@ -179,14 +176,12 @@ class _Search:
         self.engine: PreparedRig = prepare(rig)
         self.states = states = self.engine.states
         self.max_cycles, self.max_events = max_cycles, max_events
-        assembly = rig.system
-        assert isinstance(assembly, Assembly)
         self.base = states.point(states.vector_of(states.read(start)))
         self.places = [states.names.index(one.name) for one in plane]
-        stops = list(assembly.stops.values())
-        self.closing = np.array([assembly.closing(one) for one in stops]).reshape(-1, states.masses)
-        self.gaps = np.array([one.stop.gap for one in stops])
-        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
+        laws = rig.system.stop_laws.values()
+        self.closing = states.closing
+        self.gaps = np.array([one.gap for one in laws])
+        self.rigid = np.array([one.rigid for one in laws], dtype=bool)
         self.known: list[_Known] = []
 
     def at(self, first: float, second: float) -> _Array | None:
@@ -258,9 +253,7 @@ def _dataset(
     if known:
         final = np.array([one["final_state"].values for one in known])
         variables["final_state"] = (("attractor", "component"), final)
-    assembly = search.rig.system
-    assert isinstance(assembly, Assembly)
-    of_parts: Mapping[str, Any] = coordinates(assembly)
+    of_parts: Mapping[str, Any] = search.rig.system.part_names
     data = xr.Dataset(
         variables,
         {

@@ -13,10 +13,9 @@ from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
 from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
 from vibroimpact.attraction.node_labels import NodeLabels
-from vibroimpact.datasets.stops import stops_of
 from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Oscillator
-from vibroimpact.response.sections import section_variables
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.stability.equivalence import mirrors
 
 _KEPT = (
@@ -115,7 +114,7 @@ def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, A
             (*along, "stop"),
             np.array([one.motion["impacts"].values for one in known]).reshape(len(known), -1),
         ),
-        "stop": stops_of(oscillator),
+        **oscillator.part_names,
         "exponents": (
             (*along, "exponent"),
             np.array([one.motion["exponents"].values for one in known]).reshape(-1, 2),
@@ -125,7 +124,9 @@ def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, A
             "point",
             np.repeat(np.arange(len(known)), [len(one) for one in shown]),
         ),
-        **section_variables(oscillator, points[:, :4] * [1.0, 1.0, 1.0, -1.0], ("point",)),
+        **engine_system(oscillator).section_variables(
+            points[:, :4] * [1.0, 1.0, 1.0, -1.0], ("point",)
+        ),
     }
 
 

@@ -27,17 +27,16 @@ from vibroimpact.datasets.description import (
     describe,
     rig_parameters,
 )
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import Nodes
-from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
+from vibroimpact.model import AssemblyState, Oscillator, State, to_si
 from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
-from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
@@ -149,8 +148,7 @@ def basins(
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
-    if isinstance(rig.system, Oscillator):
-        check_bounded(rig)
+    engine_system(rig.system).check_bounded(rig)
     workers = workers_for(threads, where)
     first = _nodes(nodes)
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
@@ -159,15 +157,15 @@ def basins(
             f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; lower nodes or refine "
             f"until there are at most {MOST_NODES} in total"
         )
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
+    if rig.system.by_mass:
+        engine_system(rig.system).check_size()
         for name, value in (("displacement", displacement), ("velocity", velocity)):
             if value is not None:
                 raise InputError(f"{name}: an Assembly has several; remove it, and pass plane")
         for name, one in (("deformation", deformation), ("isolator", isolator or None)):
             if one is not None:
                 raise InputError(f"{name}: {shown(one)}, but the rig is an Assembly; pass start")
-        chosen = read_plane(plane, rig.system)
+        chosen = read_plane(plane, rig.assembly)
         data = assembly_basins(rig, chosen, start, plan, max_cycles, max_events, workers, progress)
         parameters = {**rig_parameters(rig), "refine": refine, "max_cycles": max_cycles}
         return describe(data, "vibroimpact.basins", parameters, varied=chosen)

@@ -17,7 +17,7 @@ from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.state import ONE_MASS
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 _PARTS = ONE_MASS.of_point
 

@@ -50,7 +50,7 @@ def window(search: Search, progress: Progress | None = None) -> Window:
     size = reach_at_rest(Rig(stage.oscillator, excitation))
     if rest.status in (Status.DONE, Status.NOT_SETTLED):
         size = max(size, reach(rest, rest.state))
-    size = FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
+    size = FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops.values()), 0.0)
     if not size > 0.0:
         raise InputError(
             "displacement: there is no default range, because the mass does not move from rest; "

@@ -20,9 +20,7 @@ Animation = Literal["gif", "html"]
 
 def is_assembly(what: Subject) -> bool:
     """Return whether the rig of a command has several masses."""
-    from vibroimpact.model import Assembly
-
-    return isinstance(what.system, Assembly)
+    return what.system.by_mass
 
 
 def refuse(what: Subject, **options: Any) -> None:
@@ -75,10 +73,9 @@ def write_motion(
 
 def between_masses(what: Subject) -> list[str]:
     """Return the names of the stops that join two masses."""
-    from vibroimpact.model import Assembly
     from vibroimpact.model.assembly.names import GROUND
 
-    stops = what.system.stops if isinstance(what.system, Assembly) else {}
+    stops = what.assembly.stops
     return [name for name, stop in stops.items() if GROUND not in (stop.left, stop.right)]
 
 
@@ -93,7 +90,6 @@ def draw_motion(
 ) -> None:
     """Draw the accelerations, the contact forces and, of a frame, the envelopes of a motion."""
     from vibroimpact.figures.assembly_motion import chains
-    from vibroimpact.model import Assembly
 
     drawn = {
         "accelerations": figures.mass_histories(
@@ -102,8 +98,7 @@ def draw_motion(
     }
     if motion.sizes["stop"]:
         drawn["forces"] = figures.contact_forces(motion, cycles=cycles, title=title)
-    system = written.what.system
-    if isinstance(system, Assembly) and any(len(row) > 1 for row in chains(system)):
+    if any(len(row) > 1 for row in chains(written.what.assembly)):
         drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
     for name, figure in drawn.items():
         written.draw(f"{name}{of}", f"{stem}-{name}", figure)

@@ -125,7 +125,8 @@ def design(
     ranges = {one.name: one.values(_VALUES) for one in chosen_ranges or of_study}
     limits: dict[str, Any] = {underscored(name): v for name, v in (table.limits or {}).items()}
     limits |= opt.by_name("--limit", limit)
-    designed = what.system if suite else what.rig
+    alone = what.assembly if several else what.oscillator
+    designed = alone if suite else what.rig
     span: Any = sines or sines_of_study or sine_span(what)
     if several and span is None:
         span = default_range(what)[:2]

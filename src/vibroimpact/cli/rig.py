@@ -14,7 +14,6 @@ from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
-    Assembly,
     Harmonic,
     Oscillator,
     Periodic,
@@ -22,14 +21,16 @@ from vibroimpact.model import (
     Repeated,
     laboratory,
 )
+from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, kept_letters, literal
 from vibroimpact.model.parameters import canonical, parameters, set_values
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import LENGTH
-from vibroimpact.model.rig import Rig, System, with_stated_units
+from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only, with_stated_units
 from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE, unitless, write_for
 from vibroimpact.response.plausibility import doubt_stops
@@ -68,8 +69,12 @@ class Subject(NamedTuple):
     @property
     def oscillator(self) -> Oscillator:
         """The oscillator of a command that accepts no assembly."""
-        assert isinstance(self.system, Oscillator)
-        return self.system
+        return one_mass_only(self.system)
+
+    @property
+    def assembly(self) -> Assembly:
+        """The assembly of a command that accepts only several masses."""
+        return several_masses_only(self.system)
 
     @property
     def repeated(self) -> Repeated:
@@ -168,7 +173,7 @@ def subject(
         If the code, the file or a value of the options is invalid.
     """
     found = _named(text, options)
-    if isinstance(found.system, Assembly) and not masses:
+    if found.system.by_mass and not masses:
         raise InputError(
             f"study {text!r}: assembly: this command computes one mass, not an assembly of several "
             f"masses; use vibroimpact {', '.join(SEVERAL_MASSES[:-1])} or {SEVERAL_MASSES[-1]}"
@@ -210,8 +215,7 @@ def subject(
         found.study,
         found.case and system.angular_frequency == found.system.angular_frequency,
     )
-    if isinstance(system, Oscillator):
-        doubt_stops(Rig(system, what.shaking))
+    doubt_stops(Rig(system, what.shaking))
     return what
 
 
@@ -349,7 +353,7 @@ def _change(path: str, value: str, system: System) -> _Change:
     text = value
     if value.lower() == "none":
         of = _KINDS.get(kind, "stop" if part in ("right", "left") else "")
-        words, text = "no", f"{of} {part}" if isinstance(system, Assembly) else f"{part} {of}"
+        words, text = "no", f"{of} {part}" if system.by_mass else f"{part} {of}"
         text = " ".join(re.split(r"[ _-]+", text.strip()))
     elif name == "amplitude":
         words, (size, of) = name, sized(value, None, path)

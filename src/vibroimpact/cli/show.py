@@ -33,14 +33,13 @@ def show(
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import system as facts
     from vibroimpact.figures.assembly import oscillator_drawing
-    from vibroimpact.model import Assembly
 
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
     found = facts.facts(what.system)
     with results(what, output) as written:
-        if isinstance(what.system, Assembly):
-            drawn = figures.assembly_drawing(what.system, title=what.title)
+        if what.system.by_mass:
+            drawn = figures.assembly_drawing(what.assembly, title=what.title)
         else:
-            drawn = oscillator_drawing(what.system, title=what.title)
+            drawn = oscillator_drawing(what.oscillator, title=what.title)
         written.draw("drawing", "system", drawn)
     return written.tell(found, facts.text(found))

@@ -126,11 +126,9 @@ def plane(what: Subject, texts: Sequence[str]) -> dict[str, tuple[str, str]] | N
         If several masses have not two of them, if one is not a range, or if a coordinate occurs
         twice.
     """
-    from vibroimpact.model import Assembly
-
     found = by_path("--plane", texts)
     spans = {name: _read_range(f"--plane: {name}", text) for name, text in found.items()}
-    if isinstance(what.system, Assembly) and len(spans) != 2:
+    if what.system.by_mass and len(spans) != 2:
         first = what.system.names[0]
         raise InputError(
             f"--plane: {', '.join(map(repr, texts)) or 'missing'}; pass two coordinates with their "

@@ -14,8 +14,8 @@ from vibroimpact.datasets.vocabulary import NAMED_DIMS, VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
-from vibroimpact.model.rig import System
 from vibroimpact.model.stops import STOPS, WallLaw
+from vibroimpact.model.system import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 CHECKS_DIMS = False
@@ -212,12 +212,8 @@ def system_parameters(system: System) -> dict[str, Any]:
 
     The entry ``assumptions`` is what was assumed to read it, and left out if nothing was.
     """
-    found: dict[str, Any] = {
-        "assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()
-    }
-    if isinstance(system, Assembly) and system.assumptions:
-        found["assumptions"] = list(system.assumptions)
-    return found
+    assumed = {"assumptions": list(system.assumptions)} if system.assumptions else {}
+    return {system.word: system.model_dump(), **assumed}
 
 
 def system_from(parameters: Mapping[str, Any]) -> System:

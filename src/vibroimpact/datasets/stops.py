@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.variable import PARTS
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.model import Oscillator
+from vibroimpact.model.oscillator import SIDES
+from vibroimpact.model.system import PartNames, System
 
-SIDES = ("right", "left")
-"""Names of the stops of an oscillator, in the order of the dim ``stop``."""
 _SUMS = ("impacts", "impact_count", "impulse")
 """Variables whose value for all stops is their sum; for others it is the largest."""
 
@@ -24,10 +23,21 @@ def has_stops(name: str) -> bool:
     return name in VARIABLES and VARIABLES[name].part == "stop"
 
 
-def stops_of(*oscillators: Oscillator) -> NDArray[np.str_]:
-    """Return the names of the stops that at least one of the oscillators has."""
-    found = [s for s in SIDES if any(getattr(one, s) is not None for one in oscillators)]
-    return np.array(found, dtype="<U5")
+def part_names(system: System, *dims: str) -> PartNames:
+    """Return the names of the parts of a system as coordinates, of those dims that it has."""
+    return {dim: names for dim, names in system.part_names.items() if dim in dims}
+
+
+def shared_part_names(systems: Sequence[System]) -> PartNames:
+    """Return the names of the parts of several systems as coordinates of one dataset.
+
+    Of oscillators, these are the stops that at least one of them has. The parts of assemblies have
+    the same names.
+    """
+    first = systems[0]
+    names = first.part_names
+    stops = [s for s in first.counted_stops if any(s in one.stops for one in systems)]
+    return names | {"stop": np.array(stops, dtype=names["stop"].dtype)}
 
 
 def stop_names(numbers: NDArray[Any]) -> NDArray[np.str_]:
@@ -36,42 +46,39 @@ def stop_names(numbers: NDArray[Any]) -> NDArray[np.str_]:
 
 
 def by_stop(
-    oscillator: Oscillator, both: NDArray[Any], names: NDArray[np.str_] | None = None
+    system: System, values: NDArray[Any], names: NDArray[np.str_] | None = None
 ) -> NDArray[Any]:
-    """Return the values of the stops that an oscillator has, of an array for both sides.
+    """Return the values of the stops that a system has, of an array for all counted stops.
 
     Parameters
     ----------
-    oscillator
-        The oscillator.
-    both : ndarray, shape (..., 2)
-        Values of the right and of the left side, such as columns of the engine.
+    system
+        The oscillator or the assembly.
+    values : ndarray, shape (..., counted stop)
+        Values such as columns of the engine: of an oscillator those of the right and the left side.
     names
-        Stops of the result; those that this oscillator lacks are NaN. Default: the stops that it
-        has.
+        Stops of the result; those that this system lacks are NaN. Default: the stops that it has.
 
     Returns
     -------
     ndarray, shape (..., stop)
     """
-    names = stops_of(oscillator) if names is None else names
-    lacking = [getattr(oscillator, name) is None for name in names.tolist()]
-    at = [SIDES.index(name) for name in names.tolist()]
-    found = both[..., at[0] : at[-1] + 1] if at else both[..., :0]  # without a copy
+    of = (system.part_names["stop"] if names is None else names).tolist()
+    lacking = [name not in system.stops for name in of]
+    at = [system.counted_stops.index(name) for name in of]
+    found = values[..., at[0] : at[-1] + 1] if at else values[..., :0]  # without a copy
     if any(lacking):
         found = found.astype(np.float64)
         found[..., lacking] = np.nan
     return found
 
 
-def each_by_stop(oscillators: Sequence[Oscillator], both: NDArray[Any]) -> NDArray[Any]:
-    """Return `by_stop` of several oscillators, with the stops that at least one of them has.
-
-    `both` has the oscillators along its first axis.
-    """
-    names = stops_of(*oscillators)
-    each = [by_stop(one, values, names) for one, values in zip(oscillators, both, strict=True)]
-    return np.array(each).reshape(*both.shape[:-1], len(names))
+def each_by_stop(
+    systems: Sequence[System], values: NDArray[Any], names: NDArray[np.str_]
+) -> NDArray[Any]:
+    """Return `by_stop` of several systems, which `values` has along its first axis."""
+    each = [by_stop(one, of, names) for one, of in zip(systems, values, strict=True)]
+    return np.array(each).reshape(*values.shape[:-1], len(names))
 
 
 def plain_values(values: xr.DataArray) -> Any:

@@ -9,13 +9,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Record, equilibrium
-from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
@@ -64,7 +65,7 @@ def gaps_for_records(
     (gap,) = quantiles(reached, [fractile], 0)
     return xr.Dataset(
         {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},
-        {"stop": coordinates(assembly)["stop"], "record": list(records)},
+        {"stop": assembly.part_names["stop"], "record": list(records)},
     )
 
 
@@ -122,7 +123,7 @@ def gaps_for_sines(assembly: Assembly, sine: Harmonic, span: tuple[Any, Any]) ->
             "required_gap": ("stop", best + still),
             "displacement_frequency": ("stop", at / math.tau),
         },
-        {"stop": coordinates(assembly)["stop"]},
+        part_names(assembly, "stop"),
     )
 
 
@@ -142,4 +143,4 @@ def _closing(assembly: Assembly) -> _Array:
             "rig: the assembly has no stops, so no gap is required; add the stops, with any gap, "
             "between the bodies that may meet"
         )
-    return np.array([assembly.closing(stop) for stop in assembly.stops.values()])
+    return engine_system(assembly).closing

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.datasets.stops import each_by_stop, has_stops, stops_of
+from vibroimpact.datasets.stops import each_by_stop, has_stops, shared_part_names
 from vibroimpact.design.design_shaking import (
     DIMS,
     PEAKS,
@@ -24,14 +24,11 @@ from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
-from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.argument_types import Fractile, Share, Tail
 from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
-from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_rows import coordinates
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.model.system import System
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
@@ -139,12 +136,12 @@ def design_chart(
     plan = runs(system, vary, least=1, any_masses=True)
     workers = workers_for(threads, where)
     rigs = [plan.system(at) for at in np.ndindex(*plan.shape)]
-    known = [name for name in PEAKS if isinstance(system, Oscillator) or name in DIMS]
-    if isinstance(system, Assembly) and isinstance(what, ByRecords):
+    known = [name for name in PEAKS if not system.by_mass or name in DIMS]
+    if system.by_mass and isinstance(what, ByRecords):
         known.append("peak_drift")
     parts: dict[str, list[str]] = {}
-    if isinstance(system, Assembly):
-        names = coordinates(system)
+    if system.by_mass:
+        names = system.part_names
         parts = {name: names[DIMS[name]].tolist() for name in known if name in DIMS}
     most = limits_of(limits, known, parts)
     found = what.peaks(rigs, workers, progress)
@@ -164,7 +161,7 @@ def _dampings(plan: Runs, rigs: list[System]) -> dict[str, NDArray[Any]]:
     names = {one.name for one in plan.varied}
     if "stops.damping" in names or not names & _STIFFNESSES:
         return {}
-    laws = [SectionStates(rig).laws for rig in rigs]
+    laws = [rig.stop_laws.values() for rig in rigs]
     every = [{pair[1] for stop in some if (pair := stop.spring_and_dashpot)} for some in laws]
     if any(len(one) != 1 for one in every):
         return {}
@@ -183,26 +180,22 @@ def _dataset(
         base, _, part = name.partition(".")
         values: Any = found[base]
         if part:
-            assert isinstance(first, Assembly)
-            values = values[:, coordinates(first)[DIMS[base]].tolist().index(part)]
+            values = values[:, first.part_names[DIMS[base]].tolist().index(part)]
         within &= severity(name, values) <= severity(name, limit)
     u, a = (
         np.where(within, severity(name, found[name]), np.nan)
         for name in ("peak_displacement", "peak_acceleration")
     )
     own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
-    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+    names = shared_part_names(rigs)
     shaped = {}
     for name, values in {**found, **own}.items():
         dims = plan.dims
-        if isinstance(rigs[0], Assembly):
+        if first.by_mass:
             dims += (DIMS[name],) if name in DIMS else ()
         elif has_stops(name):
-            dims, values = (*dims, "stop"), each_by_stop(oscillators, values)
+            dims, values = (*dims, "stop"), each_by_stop(rigs, values, names["stop"])
         shaped[name] = (dims, values.reshape(*plan.shape, *values.shape[1:]))
     varied = {one.name: one.values for one in plan.varied}
-    if isinstance(rigs[0], Assembly):
-        names = coordinates(rigs[0])
-        used = {dim for dims, _ in shaped.values() for dim in dims}
-        return xr.Dataset(shaped, {**{k: v for k, v in names.items() if k in used}, **varied})
-    return xr.Dataset(shaped, {"stop": stops_of(*oscillators), **varied})
+    used = {dim for dims, _ in shaped.values() for dim in dims}
+    return xr.Dataset(shaped, {**{k: v for k, v in names.items() if k in used}, **varied})

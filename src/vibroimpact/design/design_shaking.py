@@ -11,20 +11,21 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_parameters
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.worst_sine import Sines
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Oscillator, Record
+from vibroimpact.model import Oscillator, Record
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import as_rig, as_rig_of_any_masses, one_system
-from vibroimpact.model.rig import System, with_stated_units
-from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.model.rig import one_mass_only, with_stated_units
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.tasks.threads import Progress, Workers
@@ -187,13 +188,12 @@ def fractile_of(data: xr.Dataset) -> float | None:
 
 def _penetration(rigs: Sequence[System], right: _Array, left: _Array) -> dict[str, _Array]:
     """How far the mass goes beyond a gap (m), 0 where it does not; nothing of an assembly."""
-    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
-    if len(oscillators) < len(rigs):
+    if any(rig.by_mass for rig in rigs):
         return {}
     gaps = np.array(
         [
-            [np.inf if stop is None else stop.gap for stop in (rig.right, rig.left)]
-            for rig in oscillators
+            [rig.stop_laws[side].gap if side in rig.stops else np.inf for side in SIDES]
+            for rig in rigs
         ]
     ).reshape(-1, 2)
     with np.errstate(invalid="ignore"):
@@ -221,8 +221,7 @@ def design_rig(
     """
     as_rig(rig, oscillator_alone=records is not None)
     found, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
-    assert isinstance(found, Oscillator)
-    return found, what
+    return one_mass_only(found), what
 
 
 def design_system(
@@ -236,8 +235,7 @@ def design_system(
 ) -> tuple[System, BySines | ByRecords]:
     """Do what `design_rig` does, also for an assembly."""
     found = as_rig_of_any_masses(rig) if records is None else one_system(rig)
-    if isinstance(found.system, Assembly):
-        check_size(found.system)
+    engine_system(found.system).check_size()
     if records is None and isinstance(found.shaking, Record):
         records = found.shaking
     if records is not None:
@@ -247,7 +245,7 @@ def design_system(
             )
         by_records = ByRecords(suite(records), fractile, tail)
         return with_stated_units(found.system, in_words(by_records.records)), by_records
-    shaken = found if isinstance(found.system, Assembly) else one_sine(found)
+    shaken = found if found.system.by_mass else one_sine(found)
     low, high = read_frequencies(frequencies)
     return found.system, BySines(Sines(shaken.sine, low, high, step))
 

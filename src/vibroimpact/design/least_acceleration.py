@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
+from vibroimpact.datasets.stops import by_stop, has_stops
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig, split_frequency
 from vibroimpact.design.limits import limits_of, severity
@@ -222,7 +222,7 @@ def least_acceleration(
             "status": int(best["status"]),
             "evaluations": len(known.rows),
         },
-        {"stop": stops_of(oscillator)},
+        oscillator.part_names,
     )
     parameters = {
         **system_parameters(oscillator),
@@ -252,7 +252,7 @@ def _space(rig: Oscillator, vary: Any) -> _Space:
 
 def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
-    if not rig.stops or not all(stop.spring_and_dashpot for stop in rig.stops):
+    if not rig.stops or not all(stop.spring_and_dashpot for stop in rig.stops.values()):
         raise InputError(
             "vary: missing; by default the search for the best design varies linear bumpers, but "
             + ("this rig has no stop" if not rig.stops else "a stop of this rig is of another kind")

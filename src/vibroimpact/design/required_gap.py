@@ -9,7 +9,6 @@ import xarray as xr
 
 from vibroimpact.arguments import check_mapping
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
 from vibroimpact.design.design_shaking import (
     AnyRecords,
@@ -24,10 +23,11 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, equilibrium
 from vibroimpact.model.argument_types import Fractile, Share, Tail
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameter_ranges import Ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
@@ -94,11 +94,10 @@ def required_gap(
             f"vary: {', '.join(map(shown, others))}; the gap is required for one rig, so only "
             "'frequency' is varied; remove other parameters"
         )
-    oscillator, what = design_system(
-        rig, records, frequencies, fractile=fractile, step=step, tail=tail
-    )
-    if isinstance(oscillator, Assembly):
-        return _of_assembly(oscillator, what, workers, progress)
+    system, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
+    if system.by_mass:
+        return _of_assembly(several_masses_only(system), what, workers, progress)
+    oscillator = one_mass_only(system)
     free = oscillator.without_bumpers()
     if isinstance(what, ByRecords):
         found = _of_records(free, what, workers, progress)

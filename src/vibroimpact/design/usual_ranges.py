@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import System
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.model.system import System
 
 
 def usual_ranges(system: System, gap: float) -> dict[str, list[float]]:
@@ -17,7 +16,7 @@ def usual_ranges(system: System, gap: float) -> dict[str, list[float]]:
     InputError
         If the rig has no stops.
     """
-    stops = SectionStates(system).laws
+    stops = system.stop_laws.values()
     if not stops:
         raise InputError(
             "vary: missing; for a rig without stops there is no default; pass a parameter and its "

@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Harmonic, Oscillator
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_rows import measured_variables
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.model import Harmonic
+from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import engine_rig, engine_system
 from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.softening_limit import judged
 from vibroimpact.scenarios.map_node import RIG
 from vibroimpact.scenarios.sweep_frequencies import LOW, MOST, cycles, highest
 from vibroimpact.tasks.threads import Progress, Stopped, Tally, Workers, each
@@ -97,8 +95,9 @@ class _Measured(NamedTuple):
 
 
 def _measured(system: System, rows: HoldRows) -> _Measured:
-    if isinstance(system, Assembly):
-        found = {name: v for name, (_, v) in measured_variables(system, rows.array, ()).items()}
+    if system.by_mass:
+        measured = engine_system(system).measured(rows.array, ())
+        found = {name: v for name, (_, v) in measured.items()}
         force = found["peak_force"]
         return _Measured(
             found["displacement_max"],
@@ -109,13 +108,10 @@ def _measured(system: System, rows: HoldRows) -> _Measured:
         )
     touched = np.asarray((rows.impacts > 0.0).any(axis=-1))
     # What stays pressed all the time begins no contact.
-    for stop, reached in (
-        (system.right, rows.displacement_max),
-        (system.left, -rows.displacement_min),
-    ):
-        if stop is not None:
-            touched |= reached > stop.gap
-    force = rows.peak_force * system.mass
+    reached = {"right": rows.displacement_max, "left": -rows.displacement_min}
+    for side, stop in system.stop_laws.items():
+        touched |= reached[side] > stop.gap
+    force = rows.peak_force * engine_system(system).largest_mass
     return _Measured(
         rows.displacement_max, rows.displacement_min, rows.peak_acceleration, force, touched
     )
@@ -141,19 +137,20 @@ class Sines(NamedTuple):
         """
         natural = rig.angular_frequency / math.tau
         step = self.step
-        if isinstance(rig, Assembly):
+        if rig.by_mass:
             if self.low is None or self.high is None:
                 raise InputError(
                     "vary: 'frequency' is missing; an Assembly has several resonances, so pass its "
                     "lowest and its highest value as (low, high)"
                 )
             low, high, natural = self.low, self.high, natural or self.low
-            ratios = rig.damping_ratios
+            ratios = several_masses_only(rig).damping_ratios
             damping = float(np.min(ratios[ratios > 0.0], initial=1.0))
         else:
             low = LOW * natural if self.low is None else self.low
             high = highest(Rig(rig, self.shaken)) * natural if self.high is None else self.high
-            damping = rig.damping_ratio if rig.isolator.linear else 0.0
+            oscillator = one_mass_only(rig)
+            damping = oscillator.damping_ratio if oscillator.isolator.linear else 0.0
         if damping > 0.0:
             step = min(step, max(_PEAK * damping, 0.1 * step))
         count = max(2, math.ceil((max(high, low) - low) / (step * natural) - 1e-9) + 1)
@@ -170,7 +167,7 @@ class Sines(NamedTuple):
     ) -> list[Worst]:
         """The worst that each rig does."""
         vectors = [engine_rig(Rig(rig, self.shaken)) for rig in rigs]
-        states = [SectionStates(rig) for rig in rigs]
+        states = [engine_system(rig) for rig in rigs]
         starts = [one.vector_of(one.read(None)) for one in states]
         batch.sweep.prepare(*vectors)
         for rig in rigs:
@@ -202,8 +199,8 @@ class _Search:
         self.phase = sines.shaken.phase
         self.grid = sines.frequencies(rig)
         self.max_cycles = _CYCLES_OF_ASSEMBLIES
-        if isinstance(rig, Oscillator):
-            high = float(self.grid[-1]) / rig.natural_frequency
+        if not rig.by_mass:
+            high = float(self.grid[-1]) / one_mass_only(rig).natural_frequency
             self.max_cycles = cycles(Rig(rig, sines.shaken), high, _LEAST_CYCLES)
 
     def worst(self) -> Worst:
@@ -249,9 +246,7 @@ class _Search:
 
     def _seen(self, held: _Holds) -> Worst:
         rows, found = held.rows, _measured(self.rig, held.rows)
-        codes = rows.status.astype(np.int64)
-        if isinstance(self.rig, Oscillator):
-            codes = judged(self.rig, codes, found.displacement)
+        codes = engine_system(self.rig).judged(rows.status, found.displacement)
         bad = codes[np.isin(codes, _UNBOUNDED)]
         sound = np.isin(codes, _SOUND)
         if len(bad) or not sound.all():

@@ -15,10 +15,8 @@ from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
-from vibroimpact.response.assembly_rows import coordinates
-from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases, phases_layout
+from vibroimpact.response.engine_system import engine_system
+from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases
 from vibroimpact.response.record_history import straight
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.tasks.threads import Progress
@@ -67,7 +65,7 @@ def peaks_of_assemblies(rows: _Array, layout: Layout) -> dict[str, NDArray[Any]]
 
 
 def _nothing(assembly: Assembly) -> dict[str, Any]:
-    sizes = {name: len(found) for name, found in coordinates(assembly).items()}
+    sizes = {name: len(found) for name, found in assembly.part_names.items()}
     names = (*PEAKS, *ENERGIES)
     return {
         name: (dim, np.full(sizes[dim], np.nan)) if dim else ((), np.nan)
@@ -80,15 +78,13 @@ def seismic_response_of_assembly(
     rig: Rig, tail: float, max_events: int, progress: Progress | None
 ) -> tuple[Status, xr.Dataset]:
     """Return how the response of an assembly to its record ended, and its peaks and energies."""
-    assembly, record = rig.system, rig.record
-    assert isinstance(assembly, Assembly)
-    check_laws(assembly)
-    begin = assembly_vector(assembly, equilibrium(assembly))
+    assembly, record = rig.assembly, rig.record
+    states = engine_system(assembly)
+    states.check_motion(record)
+    begin = states.motion_vector(equilibrium(assembly))
     final, lines = begin.copy(), straight(record, tail)
-    vector = assembly_numbers(assembly, record, tables=True)
-    course = Course(
-        vector, record.peak, 0.0, 0.0, lines, True, final, len(lines), phases_layout(assembly)
-    )
+    vector = states.numbers(record, tables=True)
+    course = Course(vector, record.peak, 0.0, 0.0, lines, True, final, len(lines), states.layout)
     status, rows = course.measured(max_events, progress)
     values = _nothing(assembly)
     if status is Status.DONE:
@@ -96,6 +92,6 @@ def seismic_response_of_assembly(
         found = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
         peaks = extremes(found)
         values = {name: peaks[name] for name in PEAKS} | energies(found)
-    data = xr.Dataset(values, coordinates(assembly))
+    data = xr.Dataset(values, assembly.part_names)
     data["status"] = int(status)
     return status, data

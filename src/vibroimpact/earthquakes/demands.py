@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
-from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
+from vibroimpact.datasets.stops import each_by_stop, has_stops, shared_part_names
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes import assembly_demands
 from vibroimpact.earthquakes.intensity import Measure, measure
@@ -38,7 +38,7 @@ from vibroimpact.earthquakes.run_plan import (
 )
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, Oscillator, Record, to_si
+from vibroimpact.model import Record, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
     MaxEvents,
@@ -49,9 +49,10 @@ from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
-from vibroimpact.model.rig import Rig, System
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.system import System
 from vibroimpact.model.written_units import has_no_units
-from vibroimpact.response.assembly_rows import check_alike, coordinates
+from vibroimpact.response.assembly_rows import check_alike
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -159,7 +160,7 @@ def demands(
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
-    several = any(isinstance(one, Assembly) for one in rigs.rigs.values())
+    several = any(one.by_mass for one in rigs.rigs.values())
     if several:
         check_alike(rigs.rigs, "rig", "mass", "link", "stop")
     task = _Task(
@@ -190,7 +191,7 @@ def demands(
         "factor": (("record", "scale"), factors),
         "intensity": ("record", known),
     }
-    assumed = (one.assumptions for one in rigs.rigs.values() if isinstance(one, Assembly))
+    assumed = (one.assumptions for one in rigs.rigs.values())
     notes = [*itertools.chain(*assumed), *record_notes(shaking)]
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
     with folder(store, task.kind, settings, partial(_make, task=task, most=block), parts) as group:
@@ -243,28 +244,25 @@ class _Task(NamedTuple):
     threads: Workers
 
     @property
-    def assembly(self) -> Assembly | None:
-        """The first of several assemblies, whose parts have the same names."""
-        first = next(iter(self.rigs.rigs.values()))
-        return first if isinstance(first, Assembly) else None
+    def by_mass(self) -> bool:
+        """Whether the rigs have assemblies, whose parts have the same names."""
+        return next(iter(self.rigs.rigs.values())).by_mass
 
     @property
     def kind(self) -> Kind:
         """What a store of the results is."""
-        return _KIND if self.assembly is None else _OF_ASSEMBLIES
+        return _OF_ASSEMBLIES if self.by_mass else _KIND
 
     @property
     def values(self) -> tuple[str, ...]:
         """Names of the results."""
-        return _VALUES if self.assembly is None else assembly_demands.PEAKS
+        return assembly_demands.PEAKS if self.by_mass else _VALUES
 
     @property
     def parts(self) -> Mapping[str, NDArray[Any]]:
         """Names of the parts of the rigs, by dim: of oscillators the stops that one has."""
-        if self.assembly is not None:
-            return coordinates(self.assembly)
-        oscillators = (one for one in self.rigs.rigs.values() if isinstance(one, Oscillator))
-        return {"stop": stops_of(*oscillators)}
+        systems = list(self.rigs.rigs.values())
+        return shared_part_names(systems)
 
     def part_of(self, name: str) -> tuple[str, ...]:
         """Return the dim of the parts of which a result has one each, if it has one."""
@@ -290,10 +288,8 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
-        oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
-        for name in filter(has_stops, found) if oscillators else ():
-            own = zip(oscillators * len(chosen), found[name], strict=True)
-            found[name] = np.array([by_stop(rig, both, self.parts["stop"]) for rig, both in own])
+        for name in filter(has_stops, found):
+            found[name] = each_by_stop(rigs * len(chosen), found[name], self.parts["stop"])
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
         scale = len(shape) - 1
         return {

@@ -6,9 +6,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator, Record, Repeated
+from vibroimpact.model import Record, Repeated
 from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.public import public
+from vibroimpact.model.rig import several_masses_only
 from vibroimpact.response.motion_phases import recorded
 
 _GRID = 1e-6
@@ -77,7 +78,7 @@ def _shaking(motion: xr.Dataset, mass: str | None) -> tuple[Repeated | Record, f
     """Return what shakes a motion, and by how much the mass moves with the base."""
     origin = recorded(motion, masses=True, records=True)
     system = origin.system
-    if isinstance(system, Oscillator):
+    if not system.by_mass:
         if mass is not None:
             raise InputError(f"mass: {shown(mass)}, but an Oscillator has only one; remove mass")
         return origin.shaking, 1.0
@@ -85,4 +86,4 @@ def _shaking(motion: xr.Dataset, mass: str | None) -> tuple[Repeated | Record, f
     if mass is None:
         raise InputError(f"mass: missing; pass one of {', '.join(names)}")
     check_known(mass, names, "mass", "mass")
-    return origin.shaking, float(system.influence[names.index(mass)])
+    return origin.shaking, float(several_masses_only(system).influence[names.index(mass)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.model import Assembly, Oscillator
+from vibroimpact.model import Oscillator
 from vibroimpact.model.rig import Rig
 
 _STIFFNESSES = (
@@ -35,7 +35,7 @@ def free_tail(rig: Rig) -> float:
     """
     record = rig.record
     most = max(_LONGEST, record.duration)
-    if isinstance(rig.system, Assembly):
+    if rig.system.by_mass:
         slowest = rig.system.angular_frequency
         return min(_SWINGS * math.tau / slowest, most) if slowest else record.duration
     oscillator = rig.oscillator

@@ -20,12 +20,10 @@ from vibroimpact.engine import sections
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.one_mass import demand, extremes
-from vibroimpact.model import Assembly, Oscillator, Record, equilibrium
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_rig import assembly_numbers
-from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.softening_limit import judged
+from vibroimpact.model import Record, equilibrium
+from vibroimpact.model.rig import Rig, one_mass_only
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each, worker_count
 
 _Array = NDArray[np.float64]
@@ -66,10 +64,8 @@ class Shaken(NamedTuple):
     @property
     def layout(self) -> Layout:
         """Where the numbers of an assembly's masses, stops and drifts stand."""
-        system = self.system
-        assert isinstance(system, Assembly)
-        drifts = system.links if self.drifts is None else self.drifts
-        return Layout(len(system.names), len(system.stops), len(drifts))
+        whole = engine_system(self.system).layout
+        return whole if self.drifts is None else whole._replace(drifts=len(self.drifts))
 
 
 class _Prepared(NamedTuple):
@@ -83,15 +79,15 @@ class _Prepared(NamedTuple):
 
 
 def _prepared(one: Shaken) -> _Prepared:
-    system, record = one.system, one.record
-    if isinstance(system, Assembly):
-        vector = assembly_numbers(system, record, tables=True, drifts=one.drifts)
+    states = engine_system(one.system)
+    vector = states.numbers(one.record, tables=True, drifts=one.drifts)
+    count, moves_on = demand.EVERYTHING, False
+    if one.system.by_mass:
         count = one.layout.width + one.layout.stops
-        rest = assembly_vector(system, equilibrium(system))
-        return _Prepared(vector, rest, count + found.BEHIND, False)
-    rest = engine_state(system, equilibrium(system))
-    count = demand.EVERYTHING + found.BEHIND
-    return _Prepared(engine_rig(Rig(system, record)), rest, count, settles(system))
+    else:
+        moves_on = settles(one_mass_only(one.system))
+    rest = states.motion_vector(states.read(None))
+    return _Prepared(vector, rest, count + found.BEHIND, moves_on)
 
 
 def peaks(
@@ -177,7 +173,7 @@ def peaks(
     each_found = each(task, items, steps=steps, threads=threads, progress=told)
     for (n, some), mine in zip(parts, each_found, strict=True):
         rows[n, some] = mine
-    if shaken and isinstance(shaken[0].system, Assembly):
+    if shaken and shaken[0].system.by_mass:
         return peaks_of_assemblies(rows, shaken[0].layout)
     return _named(shaken, rows, energies, residuals)
 
@@ -191,12 +187,12 @@ def _named(
     shaken: Sequence[Shaken], rows: _Array, energies: bool, residuals: bool
 ) -> dict[str, NDArray[Any]]:
     """The engine's numbers of oscillators in SI units, by name."""
-    oscillators = [one.system for one in shaken if isinstance(one.system, Oscillator)]
+    oscillators = [one_mass_only(one.system) for one in shaken]
     mass = np.array([one.mass for one in oscillators])[:, np.newaxis]
     farthest = np.maximum(rows[..., extremes.U_MOST], -rows[..., extremes.U_LEAST])
     status = [
-        judged(one, row[:, found.OUTCOME], far)
-        for one, row, far in zip(oscillators, rows, farthest, strict=True)
+        engine_system(one.system).judged(row[:, found.OUTCOME], far)
+        for one, row, far in zip(shaken, rows, farthest, strict=True)
     ]
     acceleration = np.maximum(rows[..., extremes.A_MOST], -rows[..., extremes.A_LEAST])
     columns: list[_Array] = [

@@ -17,7 +17,8 @@ from vibroimpact.model import Record, Rig
 from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated
 from vibroimpact.model.parameters import set_values
 from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
-from vibroimpact.model.rig import System, with_stated_units
+from vibroimpact.model.rig import with_stated_units
+from vibroimpact.model.system import System
 
 _Array = NDArray[np.float64]
 

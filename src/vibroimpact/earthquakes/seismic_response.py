@@ -8,13 +8,13 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
+from vibroimpact.datasets.stops import by_stop, has_stops
 from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, to_si
+from vibroimpact.model import to_si
 from vibroimpact.model.argument_types import MOST_TAIL, MaxEvents
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
@@ -92,7 +92,7 @@ def seismic_response(
         if tail is None
         else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
     )
-    if isinstance(system, Assembly):
+    if system.by_mass:
         status, data = seismic_response_of_assembly(rig, behind, max_events, progress)
         notes = [*record.about.notes, *energy_notes(system)]
         return _described(data, status, rig, behind, notes)
@@ -110,7 +110,7 @@ def seismic_response(
     values: dict[str, Any] = {name: one[0, 0] for name, one in found.items()}
     for name in filter(has_stops, [*values]):
         values[name] = ("stop", by_stop(oscillator, values[name]))
-    data = xr.Dataset(values, {"stop": stops_of(oscillator)})
+    data = xr.Dataset(values, oscillator.part_names)
     notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
     return _described(data, Status(int(data["status"])), rig, behind, notes)
 

@@ -197,7 +197,7 @@ def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
 
 def _read(rig: Oscillator, state: PageState, name: str) -> float | None:
     """A dimensionless number of the rig, if it has it."""
-    bumpers = all(stop.spring_and_dashpot for stop in rig.stops)
+    bumpers = all(stop.spring_and_dashpot for stop in rig.stops.values())
     if name in ("stiffness_ratio", "relaxation_time") and not bumpers:
         return None
     try:

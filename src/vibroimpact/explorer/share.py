@@ -141,7 +141,7 @@ def program(state: PageState) -> str:
     low, high = state.span
     oscillator, shaken = state.oscillator, state.shaking
     kinds = {type(oscillator).__name__, type(oscillator.isolator).__name__}
-    kinds |= {type(stop).__name__ for stop in oscillator.stops} | {"Harmonic"}
+    kinds |= {type(stop).__name__ for stop in oscillator.stops.values()} | {"Harmonic"}
     written = repr(oscillator)
     for kind in kinds:
         written = _prefixed(written, kind)

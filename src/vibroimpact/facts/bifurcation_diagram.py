@@ -10,8 +10,8 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.facts.tables import Column, table_of
+from vibroimpact.model.oscillator import SIDES
 
 _MOST = 12
 """Ranges of a start that are printed."""

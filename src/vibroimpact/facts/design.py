@@ -20,12 +20,12 @@ from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import GRAVITY, Assembly, Oscillator
+from vibroimpact.model import GRAVITY
 from vibroimpact.model.parameters import PARAMETERS, in_units, usual
 from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.system import System
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unitless
-from vibroimpact.response.section_states import SectionStates
 
 _HEADS = {"stiffness_at_restitution": "stops.stiffness"}
 _GAPS = ("common_gap", "required_gap")
@@ -53,7 +53,7 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
 
 
 def text(
-    rig: Oscillator | Assembly,
+    rig: System,
     gap: xr.Dataset,
     data: xr.Dataset,
     least: xr.Dataset | None,
@@ -67,7 +67,7 @@ def text(
     """
     share = fractile_of(gap)
     yield Text()
-    if isinstance(rig, Assembly):
+    if rig.by_mass:
         yield from _gaps_of_stops(rig, gap, records, share)
     else:
         yield from _gap_of_both(rig, gap, records, share)
@@ -111,7 +111,7 @@ def text(
 
 
 def _gap_of_both(
-    rig: Oscillator, gap: xr.Dataset, records: list[str], share: float | None
+    rig: System, gap: xr.Dataset, records: list[str], share: float | None
 ) -> Iterator[Text]:
     """Yield the gap that one mass requires, and whether that of the rig is sufficient."""
     if share is None:
@@ -123,7 +123,7 @@ def _gap_of_both(
 
 
 def _gaps_of_stops(
-    assembly: Assembly, gap: xr.Dataset, records: list[str], share: float | None
+    assembly: System, gap: xr.Dataset, records: list[str], share: float | None
 ) -> Iterator[RenderableType]:
     """Yield a table of the gap that each stop requires."""
     under = f"under {', '.join(records)}" if records else "under the sines"
@@ -131,7 +131,7 @@ def _gaps_of_stops(
     yield Text(f"Required gaps for no contact {under}{of}")
     rows = []
     for name, required in plain_values(gap["required_gap"]).items():
-        here = assembly.stops[name].stop.gap
+        here = assembly.stop_laws[name].gap
         row = {"stop": name, "gap": _length(here), "required": _length(required)}
         row["short"] = "sufficient" if here >= required else f"{_length(required - here)} short"
         if share is not None:
@@ -224,12 +224,12 @@ def _be(count: int) -> str:
     return "is" if count == 1 else "are"
 
 
-def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
+def _enough(rig: System, gap: xr.Dataset) -> str:
     """Whether the gaps of the rig suffice."""
     short = {
         side: required - stop.gap
         for side, required in plain_values(gap["required_gap"]).items()
-        if (stop := getattr(rig, side)) is not None
+        if (stop := rig.stop_laws.get(side)) is not None
     }
     lacking = {side: by for side, by in short.items() if by > 0.0}
     if not lacking:
@@ -238,7 +238,7 @@ def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
     return f"{_gaps(rig).capitalize()} is {told}."
 
 
-def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
+def _enough_for_share(rig: System, gap: xr.Dataset, share: float) -> str:
     """The same of a fractile, and how many records hit nevertheless.
 
     What counts of a record is the side on which it goes farthest beyond: a gap that is enough for
@@ -248,8 +248,8 @@ def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
         [
             reached.values - stop.gap
             for reached, stop in (
-                (gap["displacement_max"], rig.right),
-                (-gap["displacement_min"], rig.left),
+                (gap["displacement_max"], rig.stop_laws.get("right")),
+                (-gap["displacement_min"], rig.stop_laws.get("left")),
             )
             if stop is not None
         ],
@@ -268,8 +268,8 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:g} %"
 
 
-def _gaps(rig: Oscillator | Assembly) -> str:
-    gaps = list(dict.fromkeys(pretty(stop.gap, LENGTH) for stop in SectionStates(rig).laws))
+def _gaps(rig: System) -> str:
+    gaps = list(dict.fromkeys(pretty(stop.gap, LENGTH) for stop in rig.stop_laws.values()))
     return f"the gap of {' and '.join(gaps)}"
 
 

@@ -10,13 +10,14 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.stops import SIDES, over_stops, plain_values
+from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.earthquakes.free_vibration import settles
 from vibroimpact.earthquakes.peak_demands import ENERGIES
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import Row, sheet_of, values_text
 from vibroimpact.model import GRAVITY, Oscillator, Record
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unit, unitless

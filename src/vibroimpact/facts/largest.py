@@ -11,10 +11,11 @@ import xarray as xr
 from rich.console import RenderableType
 
 from vibroimpact.datasets.description import base_at_rest, own_outputs
-from vibroimpact.datasets.stops import SIDES, quantities, quantity
+from vibroimpact.datasets.stops import quantities, quantity
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.frequency_text import forcing
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.units import plain
 
 _SAME = 1e-9

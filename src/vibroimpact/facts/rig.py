@@ -10,12 +10,10 @@ from rich.text import Text
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.description import excitation_parameters
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
 from vibroimpact.facts import assembly
 from vibroimpact.facts.tables import sheet
 from vibroimpact.model import (
-    Assembly,
     Dimensionless,
     Oscillator,
     Periodic,
@@ -26,6 +24,7 @@ from vibroimpact.model import (
     to_dimensionless,
 )
 from vibroimpact.model.frequency_text import forcing
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unitless
@@ -33,11 +32,11 @@ from vibroimpact.model.written_units import unitless
 
 def facts(rig: Rig) -> dict[str, Any]:
     """Return the rig in SI units and, where they exist, in dimensionless parameters."""
-    if isinstance(rig.system, Assembly):
+    if rig.system.by_mass:
         return {
             "name": rig.name,
             "vibroimpact_version": __version__,
-            **assembly.rig_facts(rig.system),
+            **assembly.rig_facts(rig.assembly),
             **_shaking_facts(rig.shaking),
         }
     scaled = _dimensionless(rig)
@@ -58,8 +57,8 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
     """
     at = "" if frequency is None or not rig.is_shaken else f"at {forcing(frequency)}"
     shaken = (*_shaking_words(rig.shaking), at) if shaking and rig.shaking is not None else ()
-    if isinstance(rig.system, Assembly):
-        table = assembly.rig_text(rig.system, shaken)
+    if rig.system.by_mass:
+        table = assembly.rig_text(rig.assembly, shaken)
         return Group(Text(rig.name or "", style="bold"), table)
     oscillator = rig.oscillator
     isolator = oscillator.isolator
@@ -88,7 +87,7 @@ def _side(oscillator: Oscillator, side: str, scaled: Dimensionless | None) -> tu
     stop: Stop | None = getattr(oscillator, side)
     if stop is None:
         # Beside a rigid stop, no bumper is missing.
-        rigid = any(one.rigid for one in oscillator.stops)
+        rigid = any(one.rigid for one in oscillator.stops.values())
         return f"{side} {'stop' if rigid else 'bumper'}", "none"
     group = getattr(scaled, side) if scaled else None
     name = f"{side} {'stop' if stop.rigid else 'bumper'}"

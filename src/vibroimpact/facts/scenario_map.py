@@ -63,7 +63,7 @@ def text(data: xr.Dataset, refine: int) -> RenderableType:
 def constants(rig: Rig, x: str, y: str) -> str:
     """Return the parameters that the map does not vary, with their values."""
     varied = {x, y}
-    stops, shaken = rig.oscillator.stops, rig.periodic
+    stops, shaken = rig.oscillator.stops.values(), rig.periodic
     bumpers = [one for stop in stops if (one := stop.spring_and_dashpot)]
     walls = [stop.restitution for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:

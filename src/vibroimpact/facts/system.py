@@ -11,19 +11,21 @@ from rich.text import Text
 
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import Assembly, Oscillator, equilibrium
+from vibroimpact.model import equilibrium
+from vibroimpact.model.rig import several_masses_only
+from vibroimpact.model.system import System
 from vibroimpact.model.written_units import unitless
 from vibroimpact.response.modes import modes
 
 _SHAPE = "mode_shape"
 
 
-def facts(system: Oscillator | Assembly) -> dict[str, Any]:
+def facts(system: System) -> dict[str, Any]:
     """Return the static equilibrium and, of several masses, the modes, in SI units."""
     rest = equilibrium(system).displacement
-    if isinstance(system, Oscillator):
+    if not system.by_mass:
         return {"equilibrium": {"displacement": rest}}
-    data = modes(system)
+    data = modes(several_masses_only(system))
     names = data["mass"].values.tolist()
     by_mode = ("natural_frequency", "modal_damping_ratio", "effective_mass")
     found = [

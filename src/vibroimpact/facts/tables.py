@@ -10,10 +10,11 @@ import xarray as xr
 from rich.console import Console, RenderableType
 from rich.table import Table
 
-from vibroimpact.datasets.stops import SIDES, of_stop, plain_values
+from vibroimpact.datasets.stops import of_stop, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import printable
 from vibroimpact.facts.number_format import heading, written
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import Scale
 from vibroimpact.model.units import plain
 

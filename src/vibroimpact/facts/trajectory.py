@@ -11,11 +11,11 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.datasets.description import motion_parameters
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import sheet
 from vibroimpact.model import Oscillator
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 

@@ -10,13 +10,13 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.model import Assembly, Bumper, Isolator, Link, Oscillator, RigidStop, Stop
 from vibroimpact.model.argument_types import String
 from vibroimpact.model.assembly.drawing import Drawing, drawing
 from vibroimpact.model.assembly.names import GROUND
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.public import public
 from vibroimpact.model.written_units import unitless, written_for
 

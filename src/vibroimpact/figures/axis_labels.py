@@ -6,8 +6,8 @@ import re
 
 import xarray as xr
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.finish import in_unit
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 
 _LABELS = {

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import motion_parameters, own_outputs
-from vibroimpact.datasets.stops import SIDES, of_stop, quantities
+from vibroimpact.datasets.stops import of_stop, quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import refuse_masses
@@ -23,6 +23,7 @@ from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import Look, sweeps_of
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts

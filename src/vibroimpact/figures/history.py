@@ -11,7 +11,6 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
@@ -26,6 +25,7 @@ from vibroimpact.figures.motion_style import (
 )
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import BANDS, EDGE, Band, panels
+from vibroimpact.model.oscillator import SIDES
 
 
 class _Panel(NamedTuple):

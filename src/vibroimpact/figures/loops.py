@@ -17,10 +17,10 @@ from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import AnyIsolator, Stop, to_si
 from vibroimpact.model.argument_types import String
 from vibroimpact.model.built_in_laws import Deformable
-from vibroimpact.model.oscillator import Units
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.system import Units
 from vibroimpact.model.written_units import NONE, SI
 
 _Array = NDArray[np.float64]

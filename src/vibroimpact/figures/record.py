@@ -11,7 +11,6 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from vibroimpact.datasets.description import motion_parameters
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import contact_spans
 from vibroimpact.figures.finish import finished, in_unit
@@ -19,6 +18,7 @@ from vibroimpact.figures.history import gap_entry
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import BANDS, EDGE, also_in_g, panels
+from vibroimpact.model.oscillator import SIDES
 
 _ROWS = (
     ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),

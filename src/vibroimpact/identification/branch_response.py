@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
 
 Array = NDArray[np.float64]
@@ -62,7 +63,7 @@ class Followed(NamedTuple):
     """What a rig does in one direction of a test."""
 
     rows: Array
-    """What was measured of each hold, see `engine.hold`; on the branch of the test."""
+    """What was measured of each hold, see `engine.steady_response`; on the branch of the test."""
     settled: NDArray[np.bool_]
     """Whether the motion became periodic."""
     off: Array

@@ -13,7 +13,8 @@ from vibroimpact.engine.one_mass import record as observed
 from vibroimpact.engine.status import DONE
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.record_history import straight
 
 Array = NDArray[np.float64]

@@ -116,7 +116,7 @@ def _finished(
 
 def _depth(found: xr.Dataset, oscillator: Oscillator) -> float:
     """How far the mass goes into a stop (m), about: half the largest excursion less the gap."""
-    gap = min(float(stop.gap) for stop in oscillator.stops)
+    gap = min(float(stop.gap) for stop in oscillator.stops.values())
     variable = found["point_variable"].values
     swing = found["measured_value"].values[variable == "displacement_excursion"]
     reach = 0.5 * float(np.nanmax(swing)) if len(swing) else 1.5 * gap

@@ -24,13 +24,14 @@ from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
-from vibroimpact.model.oscillator import Oscillator, Units
+from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
+from vibroimpact.model.system import Units
 from vibroimpact.model.units import plain, to_si
 from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import SI

@@ -25,6 +25,7 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.state import State
 from vibroimpact.model.stops import Bumper, WallLaw
+from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty
 
 
@@ -32,7 +33,9 @@ from vibroimpact.model.units import pretty
 def equilibrium(system: Oscillator) -> State: ...
 @overload
 def equilibrium(system: Assembly) -> AssemblyState: ...
-def equilibrium(system: Oscillator | Assembly) -> State | AssemblyState:
+@overload
+def equilibrium(system: System) -> State | AssemblyState: ...
+def equilibrium(system: System) -> State | AssemblyState:
     """Return the state of rest that a slow loading from u = 0 reaches.
 
     Parameters
@@ -59,9 +62,10 @@ def equilibrium(system: Oscillator | Assembly) -> State | AssemblyState:
     """
     if isinstance(system, Assembly):
         return of_assembly(system)
+    assert isinstance(system, Oscillator)
     oscillator = system
     linear = isinstance(oscillator.isolator, Isolator) and all(
-        isinstance(stop, Bumper | WallLaw) for stop in oscillator.stops
+        isinstance(stop, Bumper | WallLaw) for stop in oscillator.stops.values()
     )
     u = _by_stiffness(oscillator) if linear else _by_root(oscillator)
     return State(u, isolator=oscillator.isolator.remembered(u))
@@ -70,7 +74,7 @@ def equilibrium(system: Oscillator | Assembly) -> State | AssemblyState:
 def _by_stiffness(oscillator: Oscillator) -> float:
     """The displacement of a linear spring between linear stops, in closed form."""
     assert isinstance(oscillator.isolator, Isolator)
-    if oscillator.force == 0.0 and all(stop.gap >= 0.0 for stop in oscillator.stops):
+    if oscillator.force == 0.0 and all(stop.gap >= 0.0 for stop in oscillator.stops.values()):
         return 0.0  # nothing pushes, as on most rigs of a map
     spring = oscillator.isolator.stiffness
     sides = [(1, oscillator.right), (-1, oscillator.left)]

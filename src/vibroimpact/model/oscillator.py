@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, cast
 
+import numpy as np
 from pydantic import (
     Field,
     SerializerFunctionWrapHandler,
@@ -28,18 +29,21 @@ from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stated_units import check_no_units, has_unit, values_of
 from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, Stop, WallLaw
 from vibroimpact.model.stops.bumper import returning
+from vibroimpact.model.system import PartNames, System, Units
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, takes_fields
+from vibroimpact.model.validation import Accepts, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
-Units: TypeAlias = Literal["SI", "none"]
-"""Units of the numbers of a rig."""
+if TYPE_CHECKING:
+    from vibroimpact.model.excitation import Repeated
 
+SIDES = ("right", "left")
+"""Names of the stops of an oscillator, in the order of results."""
 _LEAST, _MOST = 1e-50, 1e50
 """Natural frequencies (rad/s) and damping ratios whose powers are floating-point numbers."""
 
 
-class Oscillator(Model):
+class Oscillator(System):
     """A mass on an isolator, with a stop on each side. The stops may differ, or be absent.
 
     Parameters
@@ -79,6 +83,8 @@ class Oscillator(Model):
         constant force.
     """
 
+    word = "oscillator"
+    by_mass = False
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
@@ -233,9 +239,30 @@ class Oscillator(Model):
         return self
 
     @property
-    def stops(self) -> tuple[Stop, ...]:
-        """The stops that exist, with the right stop first."""
-        return tuple(stop for stop in (self.right, self.left) if stop is not None)
+    def names(self) -> tuple[str, ...]:
+        """Name of the mass."""
+        return ("mass",)
+
+    @property
+    def stops(self) -> dict[str, Stop]:
+        """The stops that exist, by their sides, with the right stop first."""
+        both = {"right": self.right, "left": self.left}
+        return {side: stop for side, stop in both.items() if stop is not None}
+
+    @property
+    def stop_laws(self) -> dict[str, Stop]:
+        """The same as `stops`."""
+        return self.stops
+
+    @property
+    def counted_stops(self) -> tuple[str, ...]:
+        """Both sides."""
+        return SIDES
+
+    @property
+    def part_names(self) -> PartNames:
+        """Names of the stops that exist, by the dim ``stop``."""
+        return {"stop": np.array(list(self.stops), dtype="<U5")}
 
     @property
     def angular_frequency(self) -> float:
@@ -303,7 +330,21 @@ class Oscillator(Model):
         This is true for an `Isolator` whose damping exponent is 1, with stops that are a `Bumper`
         or a `RigidStop`.
         """
-        return self.isolator.linear and all(stop.linear for stop in self.stops)
+        return self.isolator.linear and all(one.linear for one in self.stops.values())
+
+    def _acted_on_by(self, shaking: Repeated) -> Repeated:
+        """Return an excitation, which acts on the only mass.
+
+        Raises
+        ------
+        InputError
+            If it states a mass.
+        """
+        if shaking.on is not None:
+            raise InputError(
+                f"shaking.on: {shaking.on!r}, but an Oscillator has only one mass; remove on"
+            )
+        return shaking
 
     def check_linear(self, what: str, stops: bool = True) -> None:
         """Raise an error if the law of the isolator or of a stop is not linear.

@@ -11,12 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import MOST_LISTED, check_list, check_mapping
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.assembly import Assembly
-from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.size_checks import doubt_damping_ratio
+from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty, to_si
 
 Ranges: TypeAlias = Mapping[str, tuple[float | str, float | str]]
@@ -68,9 +67,7 @@ class Range(NamedTuple):
             )
 
 
-def read_ranges(
-    vary: object, rig: Rig | Oscillator | Assembly, count: int | None = 1
-) -> list[Range]:
+def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[Range]:
     """Read parameters and their ranges, such as ``{"gap": ("3 mm", "7 mm")}``.
 
     Parameters
@@ -123,7 +120,7 @@ def read_range(varied: Parameter, span: object, field: str, *, positive: bool = 
 
 def read_values(
     vary: object,
-    rig: Rig | Oscillator | Assembly,
+    rig: Rig | System,
     *,
     least: int = 0,
     most: int | None = None,
@@ -208,7 +205,7 @@ def _given(
     return given
 
 
-def _parameters(given: Mapping[str, Any], rig: Rig | Oscillator | Assembly) -> list[Parameter]:
+def _parameters(given: Mapping[str, Any], rig: Rig | System) -> list[Parameter]:
     found: dict[str, Parameter] = {}
     for name in given:
         one = parameter(name, rig, "vary")

@@ -53,6 +53,7 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
+from vibroimpact.model.system import System
 from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, Model
 
@@ -166,7 +167,7 @@ class Parameter(NamedTuple):
         return (side,) if owner == "stops" and side else ()
 
 
-def parameter(path: str, rig: Rig | Oscillator | Assembly, field: str = "parameter") -> Parameter:
+def parameter(path: str, rig: Rig | System, field: str = "parameter") -> Parameter:
     """Return the parameter of a rig with a path, with its unit and its words in this rig.
 
     Raises
@@ -174,7 +175,7 @@ def parameter(path: str, rig: Rig | Oscillator | Assembly, field: str = "paramet
     InputError
         If the rig has no such parameter. The message names the nearest one, and all of them.
     """
-    rig = Rig(rig) if isinstance(rig, Oscillator | Assembly) else rig
+    rig = Rig(rig) if isinstance(rig, System) else rig
     known = parameters(rig)
     name = canonical(path, known)
     if name not in known:
@@ -366,7 +367,7 @@ def _exists(part: Any, steps: Steps) -> bool:
     return _exists(getattr(part, first, None), tuple(rest))
 
 
-def _places(system: Oscillator | Assembly) -> dict[str, list[Place]]:
+def _places(system: System) -> dict[str, list[Place]]:
     """Return where the numbers of a system stand, by path; several for the path of all stops.
 
     A path without the name of a stop comes before those of each stop.

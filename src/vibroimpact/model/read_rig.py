@@ -16,8 +16,9 @@ from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameter_ranges import Range
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, several_masses
+from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only
 from vibroimpact.model.study import read_rig_study
+from vibroimpact.model.system import System
 
 _ACCEPTED = (
     'pass a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, '
@@ -51,7 +52,8 @@ def as_rig(
         If the value is not a rig, or if the study file is invalid. Also if a frequency is passed,
         but a record shakes the rig.
     """
-    rig = _with_one_mass(_read(value, where, oscillator_alone), where)
+    rig = _read(value, where, oscillator_alone)
+    one_mass_only(rig.system, where)
     return rig if frequency is None else rig.at(frequency)
 
 
@@ -85,10 +87,7 @@ def as_assembly(value: Any, where: str = "rig") -> Assembly:
     InputError
         If the value is not a rig, if the study file is invalid, or if the rig has an oscillator.
     """
-    system = _read(value, where, oscillator_alone=True).system
-    if not isinstance(system, Assembly):
-        raise InputError(f"{where}: an Oscillator has one mass; pass an Assembly")
-    return system
+    return several_masses_only(_read(value, where, oscillator_alone=True).system, where)
 
 
 AnyAssembly: TypeAlias = Annotated[Assembly | Rig | str | Path, as_assembly]
@@ -122,10 +121,10 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     InputError
         If there are no rigs, or if one of them is not a rig, or has an assembly.
     """
-    return {
-        name: _with_one_mass(rig, place)
-        for name, (place, rig) in _each_rig(rigs, where, oscillator_alone).items()
-    }
+    read = _each_rig(rigs, where, oscillator_alone)
+    for place, rig in read.values():
+        one_mass_only(rig.system, place)
+    return {name: rig for name, (_, rig) in read.items()}
 
 
 def as_rigs_of_any_masses(
@@ -160,14 +159,7 @@ def _each_rig(rigs: Any, where: str, oscillator_alone: bool) -> dict[str, tuple[
 
 def is_one_rig(value: object) -> bool:
     """Return whether a value is one rig, or part of one rig, instead of several rigs."""
-    return isinstance(value, Rig | Case | Oscillator | Assembly | str | Path)
-
-
-def _with_one_mass(rig: Rig, where: str) -> Rig:
-    """Return a rig with an oscillator, and raise an error for an assembly."""
-    if isinstance(rig.system, Assembly):
-        raise InputError(several_masses(where))
-    return rig
+    return isinstance(value, Rig | Case | System | str | Path)
 
 
 def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
@@ -183,10 +175,8 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
             return laboratory.case(value).rig
         except InputError as error:
             why = f" ({error})" if laboratory.is_code(value) else ""
-    if isinstance(value, Assembly):
-        return Rig(value)
-    if isinstance(value, Oscillator):
-        if oscillator_alone:
+    if isinstance(value, System):
+        if oscillator_alone or value.by_mass:
             return Rig(value)
         raise InputError(
             f"{where}: an Oscillator alone has no shaking; pass a Rig with a shaking, such as "

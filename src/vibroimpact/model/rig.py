@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly import Assembly
-from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.html_table import table
 from vibroimpact.model.oscillator import Oscillator
@@ -21,11 +20,10 @@ from vibroimpact.model.periodic_shaking import as_periodic, is_nothing, several
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.record import Record
 from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE, SI, written_for
 
-System: TypeAlias = Oscillator | Assembly
-"""What a rig shakes."""
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
 """Accepted values for the shaking of a rig: an amplitude, a string with a unit, one amplitude per
 frequency of a sweep, a `Harmonic`, a `Periodic` or a `Record`."""
@@ -132,9 +130,11 @@ class Rig:
                 )
             if shaking is not None:
                 shaking = shaking.replace(frequency=own)
+        if isinstance(shaking, Harmonic | Periodic):
+            shaking = system._acted_on_by(shaking)
         vars(self).update(
             system=system,
-            shaking=_on_a_mass(system, shaking),
+            shaking=shaking,
             frequency=own,
             amplitudes=amplitudes,
             name=name,
@@ -156,9 +156,18 @@ class Rig:
         InputError
             If the system is an assembly.
         """
-        if isinstance(self.system, Assembly):
-            raise InputError(several_masses("rig"))
-        return self.system
+        return one_mass_only(self.system)
+
+    @property
+    def assembly(self) -> Assembly:
+        """The assembly.
+
+        Raises
+        ------
+        InputError
+            If the system is an oscillator.
+        """
+        return several_masses_only(self.system)
 
     @property
     def amplitude(self) -> float:
@@ -346,13 +355,13 @@ class Rig:
 
     def __str__(self) -> str:
         with written_for(self):
-            return f"Rig({_word(self.system)}={self.system}, shaking={self._shaking_text()})"
+            return f"Rig({self.system.word}={self.system}, shaking={self._shaking_text()})"
 
     def _repr_html_(self) -> str:
         title = "Rig" if self.name is None else f"Rig {self.name}"
         with written_for(self):
             rows = [*self.system.rows(), ("shaking", self._shaking_text())]
-            return f"{_picture(self.system)}{table(title, rows)}"
+            return f"{self.system._picture()}{table(title, rows)}"
 
     def _open(self) -> object:
         """Return the shaking with an open frequency, as its amplitude if it is a plain sine."""
@@ -386,53 +395,36 @@ def _misplaced(value: object) -> str:
     return f"{shown(value)} is not an Oscillator or an Assembly"
 
 
-def several_masses(where: str) -> str:
-    """Return the error of a function that requires one mass, but gets an assembly."""
-    return (
-        f"{where}: an Assembly of several masses is not accepted by this function; pass a Rig with "
-        "an Oscillator"
-    )
-
-
-def _word(system: System) -> str:
-    return "assembly" if isinstance(system, Assembly) else "oscillator"
-
-
-def _picture(system: System) -> str:
-    return system.picture() if isinstance(system, Assembly) else ""
-
-
-def _on_a_mass(system: System, shaking: Repeated | Record | None) -> Repeated | Record | None:
-    """Return the shaking with the mass on which a force acts, checked.
+def one_mass_only(system: System, where: str = "rig") -> Oscillator:
+    """Return the oscillator of a function that accepts only one mass.
 
     Raises
     ------
     InputError
-        If a force on one of several masses does not state which, or if there is no such mass.
+        If the system is an assembly.
     """
-    if isinstance(shaking, Record) or shaking is None:
-        return shaking
-    if isinstance(system, Oscillator):
-        if shaking.on is not None:
-            raise InputError(
-                f"shaking.on: {shaking.on!r}, but an Oscillator has only one mass; remove on"
-            )
-        return shaking
-    if shaking.moves_base:
-        return shaking
-    if shaking.on is not None:
-        check_known(shaking.on, system.names, "mass", "shaking.on")
-        return shaking
-    if len(system.names) > 1:
-        size = pretty(shaking.amplitude, shaking.quantity)
+    if not isinstance(system, Oscillator):
         raise InputError(
-            f"shaking: {size} acts on one of {len(system.names)} masses; state which, such as "
-            f'on = "{system.names[-1]}"'
+            f"{where}: an Assembly of several masses is not accepted by this function; pass a Rig "
+            "with an Oscillator"
         )
-    return shaking.replace(on=system.names[0])
+    return system
 
 
-_S = TypeVar("_S", Oscillator, Assembly, Oscillator | Assembly)
+def several_masses_only(system: System, where: str = "rig") -> Assembly:
+    """Return the assembly of a function that accepts only several masses.
+
+    Raises
+    ------
+    InputError
+        If the system is an oscillator.
+    """
+    if not isinstance(system, Assembly):
+        raise InputError(f"{where}: an Oscillator has one mass; pass an Assembly")
+    return system
+
+
+_S = TypeVar("_S", bound=System)
 
 
 def with_stated_units(system: _S, values: Mapping[str, object]) -> _S:

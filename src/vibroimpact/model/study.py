@@ -23,7 +23,8 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, System, with_stated_units
+from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.system import System
 from vibroimpact.model.toml_text import quoted, toml
 from vibroimpact.model.validation import Accepts, Model, validate
 from vibroimpact.model.wrong_kinds import NumberOrText
@@ -214,20 +215,22 @@ def study_text(rig: Rig, about: str = "") -> str:
         )
     lines = [f"# {line}" for line in about.splitlines()]
     lines += [] if rig.name is None else [f"name = {quoted(rig.name)}", ""]
-    table = rig.system.model_dump(exclude_none=True)
-    if isinstance(rig.system, Assembly):
-        values = {key: one for key, one in table.items() if not isinstance(one, dict)}
-        parts = {key: one for key, one in table.items() if isinstance(one, dict)}
-        lines += ["[assembly]", *_lines(values), ""] if values else []
-        for key, part in parts.items():
-            lines += [f"[assembly.{key}]", *_lines(part), ""]
-    else:
-        lines += ["[oscillator]", *_lines(table), ""]
+    for name, values in _tables(rig.system).items():
+        lines += [f"[{name}]", *_lines(values), ""]
     if rig.shaking is not None:
         shaken = rig.periodic.model_dump()
         del shaken["frequency"]
         lines += ["[excitation]", *_lines(shaken), ""]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _tables(system: System) -> dict[str, dict[str, Any]]:
+    """Return the tables of a system by their names; those of several masses have one per part."""
+    every = system.model_dump(exclude_none=True)
+    parts = {name: one for name, one in every.items() if system.by_mass and isinstance(one, dict)}
+    values = {name: one for name, one in every.items() if name not in parts}
+    whole = {system.word: values} if values else {}
+    return whole | {f"{system.word}.{name}": one for name, one in parts.items()}
 
 
 def _lines(table: Mapping[str, Any]) -> list[str]:

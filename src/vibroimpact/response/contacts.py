@@ -9,11 +9,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.model import Assembly, Record, Repeated
+from vibroimpact.model import Record, Repeated
 from vibroimpact.model.argument_types import NonNegative
 from vibroimpact.model.public import public
-from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import Origin, Phases, phases, recorded
 
 _Array = NDArray[np.float64]
@@ -94,15 +95,17 @@ def contact_log(
         float(np.abs(motion[name].values).max(initial=0.0))
         for name in ("velocity", "event_velocity")
     )
-    several = isinstance(origin.system, Assembly)
+    of_masses = engine_system(origin.system).of_masses
+    _, arrival = of_masses((), chosen.arrival)
+    _, parting = of_masses((), chosen.parting)
     values = {
         "stop": np.array(found.stops, dtype=np.str_)[chosen.stop],
         "start": chosen.begin,
         "end": chosen.begin + chosen.length,
         **_in_the_cycle(chosen, origin.shaking),
         "duration": chosen.length,
-        "start_velocity": chosen.arrival if several else chosen.arrival[:, 0],
-        "end_velocity": chosen.parting if several else chosen.parting[:, 0],
+        "start_velocity": arrival,
+        "end_velocity": parting,
         "peak_force": chosen.force,
         "impulse": chosen.impulse,
         "penetration": chosen.penetration,
@@ -115,14 +118,14 @@ def contact_log(
         ),
         "grazing": chosen.closing < share * fastest,
     }
-    if not several:
+    if not origin.system.by_mass:
         values |= {"peak_acceleration": chosen.peak, "peak_time": chosen.begin + chosen.peak_time}
     return xr.Dataset(
         {
             f"contact_{name}": (("contact_number", "mass")[: value.ndim], value)
             for name, value in values.items()
         },
-        {dim: names for dim, names in coordinates(origin.system).items() if dim == "mass"},
+        part_names(origin.system, "mass"),
     )
 
 
@@ -197,7 +200,7 @@ def _lasting(found: Phases, origin: Origin, stop: int) -> _Contacts:
     # The event with which it begins ends the phase before it; a rest begins behind it.
     ahead, closing = found.of_mass(layout.PARTING)[first - 1], found.of_stop(layout.CLOSING)
     system = found.system
-    rests = isinstance(system, Assembly) and list(system.stops.values())[stop].stop.rigid
+    rests = system.by_mass and system.stop_laws[system.counted_stops[stop]].rigid
     return _Contacts(
         first.astype(np.float64),
         np.full(count, stop),

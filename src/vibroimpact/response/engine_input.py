@@ -16,16 +16,14 @@ from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import FLIGHT, FRESH, MODE, ONE_MASS
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import (
-    Assembly,
     AssemblyState,
     Oscillator,
     Periodic,
     Record,
+    Repeated,
     State,
     Stop,
 )
-from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rig import assembly_numbers
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
@@ -52,11 +50,8 @@ _TOUCHED = {(False, False): 0, (True, False): 1, (False, True): -1, (True, True)
 """The same by whether the right and the left stop are touched."""
 
 
-def engine_rig(rig: Rig) -> NDArray[np.float64]:
-    """The rig as the vector that the engine reads."""
-    if isinstance(rig.system, Assembly):
-        return assembly_numbers(rig.system, rig.periodic)
-    oscillator = rig.oscillator
+def oscillator_numbers(oscillator: Oscillator, shaking: Repeated | Record) -> NDArray[np.float64]:
+    """Return an oscillator that is shaken as the engine's vector."""
     stiffness, damping, law = oscillator.isolator.engine_numbers()
     right, left = (
         None if stop is None else stop.engine_numbers()
@@ -69,36 +64,33 @@ def engine_rig(rig: Rig) -> NDArray[np.float64]:
         right,
         left,
         oscillator.force,
-        _drive(rig),
+        _drive(oscillator.mass, shaking),
         law,
     )
 
 
-def system_vector(rig: Rig) -> NDArray[np.float64]:
-    """The same with the size and the frequency of what shakes it: a system of the section's map."""
-    excitation, numbers = rig.periodic, engine_rig(rig)
-    if isinstance(rig.system, Assembly):
-        return np.append(numbers, [excitation.amplitude, excitation.frequency])
+def section_numbers(oscillator: Oscillator, shaking: Repeated) -> NDArray[np.float64]:
+    """Return the same with the size and the frequency of the shaking, for the section map."""
+    numbers = oscillator_numbers(oscillator, shaking)
     vector = np.resize(numbers, max(section_map.SYSTEM, len(numbers)))
-    vector[section_map.AMPLITUDE] = excitation.amplitude
-    vector[section_map.FREQUENCY] = excitation.frequency
+    vector[section_map.AMPLITUDE] = shaking.amplitude
+    vector[section_map.FREQUENCY] = shaking.frequency
     return vector
 
 
-def _drive(rig: Rig) -> Drive:
+def _drive(mass: float, shaken: Repeated | Record) -> Drive:
     """What shakes the mass, as the base acceleration that does the same.
 
     A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
     mass −F/M sin θ, and an unbalance m e is the force m e ω² sin θ.
     """
-    if isinstance(rig.shaking, Record):
-        return Drive(interval=rig.shaking.step)
-    oscillator, shaken = rig.oscillator, rig.periodic
+    if isinstance(shaken, Record):
+        return Drive(interval=shaken.step)
     scale, power = {
         "acceleration": (1.0, 0.0),
         "displacement": (-1.0, 2.0),
-        "force": (-1.0 / oscillator.mass, 0.0),
-        "unbalance": (-1.0 / oscillator.mass, 2.0),
+        "force": (-1.0 / mass, 0.0),
+        "unbalance": (-1.0 / mass, 2.0),
     }[shaken.of]
     weights: tuple[tuple[float, float], ...] = ()
     if isinstance(shaken, Periodic):
@@ -193,7 +185,7 @@ def _claim(state: State) -> str:
 
 def _overlap(oscillator: Oscillator) -> bool:
     """Whether the mass can press both stops at once."""
-    return sum(stop.gap for stop in oscillator.stops) < 0.0
+    return sum(stop.gap for stop in oscillator.stops.values()) < 0.0
 
 
 def _deeper(oscillator: Oscillator, u: float, v: float) -> int:

@@ -21,7 +21,7 @@ from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_state, system_vector
+from vibroimpact.response.engine_input import engine_state, section_numbers
 from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
 
 _Array = NDArray[np.float64]
@@ -178,7 +178,7 @@ class Flight(NamedTuple):
 def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
     """Prepare a rig, whose stops are left out, shaken from phase 0."""
     free, shaken = rig.oscillator.without_bumpers(), rig.periodic
-    return Flight(Rig(free, shaken), system_vector(Rig(free, shaken.replace(phase=0.0))), level)
+    return Flight(Rig(free, shaken), section_numbers(free, shaken.replace(phase=0.0)), level)
 
 
 def _changed(found: Held, last: Held) -> float:

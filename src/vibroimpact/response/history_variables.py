@@ -12,9 +12,8 @@ from vibroimpact.datasets.stops import by_stop, stop_names
 from vibroimpact.engine.assembly import record as several
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
 from vibroimpact.engine.one_mass import record
-from vibroimpact.model import Assembly
+from vibroimpact.model import Assembly, Oscillator, Record, Repeated
 from vibroimpact.model.assembly import numbers
-from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.unknown_keys import listed as words
 
 _Array = NDArray[np.float64]
@@ -23,6 +22,31 @@ _FEW_EVENTS = 100
 """Below which integration steps, not events, were too many."""
 _BUSY = 0.25
 """Share of the events at the busiest stop that another one needs to be named."""
+
+
+class Written(NamedTuple):
+    """What the engine wrote down of a motion."""
+
+    out: _Array
+    """Samples."""
+    events: list[_Array]
+    """Rows of events, in parts."""
+    interval: float
+    """Length of a cycle or of a step of a record (s)."""
+    shaking: Repeated | Record
+    phase: float
+    """Where a repeated forcing begins (rad)."""
+    forcing: str
+    """Name of the history of the shaking."""
+    values: _Array
+    """That history at the samples."""
+
+    @property
+    def force_on_mass(self) -> Repeated | None:
+        """The shaking, if it is a force on a mass."""
+        if isinstance(self.shaking, Record) or self.shaking.moves_base:
+            return None
+        return self.shaking
 
 
 def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:

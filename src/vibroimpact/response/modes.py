@@ -5,9 +5,8 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.model import Assembly
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyAssembly
+from vibroimpact.model.read_rig import AnyAssembly, as_assembly
 
 _COUPLED = (
     "damping: the undamped modes do not decouple it, so that each damping ratio is the diagonal "
@@ -47,8 +46,7 @@ def modes(rig: AnyAssembly) -> xr.Dataset:
     >>> print(found["mode_shape"].sel(mass="floor_1").values.round(3))
     [0.618 1.   ]
     """
-    assert isinstance(rig, Assembly)
-    system = rig
+    system = as_assembly(rig)
     by_mode = {
         "natural_frequency": system.natural_frequencies,
         "modal_damping_ratio": system.damping_ratios,

@@ -16,7 +16,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_from
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.engine import sections
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
@@ -29,10 +28,9 @@ from vibroimpact.engine.stops.rebound import restitutions
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, Repeated, validate
 from vibroimpact.model.argument_types import MOST_EVENTS
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_rig import assembly_numbers
-from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
-from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
+from vibroimpact.model.rig import one_mass_only
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.record_history import straight
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
@@ -63,8 +61,7 @@ class Origin(NamedTuple):
     @property
     def oscillator(self) -> Oscillator:
         """The system, of a motion of one mass."""
-        assert isinstance(self.system, Oscillator)
-        return self.system
+        return one_mass_only(self.system, "motion")
 
     @property
     def repeated(self) -> Repeated:
@@ -132,22 +129,17 @@ class Phases(PartColumns):
         self.system = system
         self.status, self.rows, self.bounds, self.angle = followed
         self.begin, self.final, self.notes = begin, final, list(notes)
-        self.layout = phases_layout(system)
-        self.stops: tuple[str, ...] = SIDES
-        self.closing = np.array([[1.0], [-1.0]])
-        if isinstance(system, Assembly):
-            self.stops = tuple(system.stops)
-            rates = [system.closing(stop) for stop in system.stops.values()]
-            self.closing = np.array(rates).reshape(len(rates), len(system.names))
-        else:
-            self.rows = _in_si(self.rows, system)
+        states = engine_system(system)
+        self.rows = states.phase_rows(self.rows)
+        self.layout, self.closing = states.layout, states.closing
+        self.stops = system.counted_stops
 
     @property
     def pressed(self) -> NDArray[np.bool_]:
         """Which stops are touched, shape (phase, stop)."""
         bits = self.rows[:, layout.TOUCHED].astype(np.int64)[:, np.newaxis]
         touched: NDArray[np.bool_] = bits >> np.arange(self.layout.stops) & 1 > 0
-        if isinstance(self.system, Oscillator):
+        if not self.system.by_mass:
             return touched
         # At a single instant a stop is touched if it pushes.
         lasts = self.rows[:, layout.LENGTH] > 0.0
@@ -160,32 +152,6 @@ class Phases(PartColumns):
     def impacts(self) -> NDArray[np.int64]:
         """Phases that end in an impact on a rigid stop."""
         return np.flatnonzero(self.rows[:, layout.KIND] == IMPACT)
-
-
-def phases_layout(system: System) -> Layout:
-    """Return where in a row of a phase the columns are."""
-    if isinstance(system, Oscillator):
-        return ONE_MASS
-    return Layout(len(system.names), len(system.stops), len(system.links))
-
-
-def _in_si(rows: _Array, oscillator: Oscillator) -> _Array:
-    """Return the rows of one mass, which are per unit mass and without the constant force, in SI.
-
-    The force on the base is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration of
-    the base, or what stands for a force on the mass.
-    """
-    mass, found = oscillator.mass, rows.copy()
-    of_stops = [
-        ONE_MASS.stop(column, number)
-        for column in (layout.FORCE, layout.IMPULSE, layout.LOSES, layout.HIT)
-        for number in range(ONE_MASS.stops)
-    ]
-    found[:, [layout.LOST, layout.STRUCK, *of_stops]] *= mass
-    found[:, layout.WORK] *= -mass
-    carried = [layout.CARRIED_LEAST, layout.CARRIED_MOST]
-    found[:, carried] = oscillator.force - mass * rows[:, carried[::-1]]
-    return found
 
 
 def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False) -> Origin:
@@ -211,13 +177,12 @@ def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False)
         )
     parameters = json.loads(motion.attrs["parameters"])
     kind: type[System] = Assembly if "assembly" in parameters else Oscillator
-    if kind is Assembly and not masses:
+    if kind.by_mass and not masses:
         raise InputError(
             "motion: it is of an Assembly of several masses, which this function does not accept; "
             "draw it with figures.mass_histories, contact_forces or pair_portrait"
         )
-    name = kind.__name__.lower()
-    system: System = validate(kind, parameters[name], f"motion.{name}")
+    system = validate(kind, parameters[kind.word], f"motion.{kind.word}")
     if "record" in parameters:
         origin = Origin(system, shaken_by(motion, parameters["record"]), math.nan, False)
         if not records:
@@ -386,13 +351,10 @@ def repeated_course(
 
 def _course(motion: xr.Dataset, origin: Origin) -> Course:
     """Return how the engine follows the motion of a dataset, as `simulate` has done."""
-    system, shaken, begin = origin.system, origin.shaking, motion["initial_state"]
-    if isinstance(system, Assembly):
-        rig = assembly_numbers(system, shaken)
-        state = assembly_vector(system, as_assembly_state(begin, system))
-    else:
-        rig, state = engine_rig(Rig(system, shaken)), engine_state(system, as_state(begin))
-    of = phases_layout(system)
+    states, shaken = engine_system(origin.system), origin.shaking
+    rig = states.numbers(shaken)
+    state = states.motion_vector(states.read(motion["initial_state"]))
+    of = states.layout
     if isinstance(shaken, Record):
         return record_course(motion, shaken, rig, state, of)
     return repeated_course(shaken, origin.cycles, rig, state, of)

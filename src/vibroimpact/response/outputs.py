@@ -10,10 +10,10 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.datasets.stops import quantity, stops_of
+from vibroimpact.datasets.stops import quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, AssemblyState, Rig, State
+from vibroimpact.model import AssemblyState, Rig, State
 from vibroimpact.model.parameters import parameter, parameters
 from vibroimpact.response.output_formula import OutputFormula, read_output_formula
 from vibroimpact.response.simulate import compute_history
@@ -208,15 +208,13 @@ def histories_of(rig: Rig) -> tuple[str, ...]:
     of_masses, of_stops = ["displacement", "velocity", "acceleration"], ["deformation", "clearance"]
     of_rig = ["base_acceleration" if rig.hardest.periodic.moves_base else "applied_force"]
     of_rig.append("transmitted_force")
-    if isinstance(system, Assembly):
+    if system.by_mass:
         of_masses = [f"{name}.{mass}" for name in of_masses for mass in system.names]
         of_stops.append("contact_force")
-        stops = list(system.stops)
     else:
         of_stops.append("touching")
-        stops = stops_of(system).tolist()
-        of_rig += ["isolator_memory"] if system.isolator.remembers else []
-    each = [f"{name}.{stop}" for name in of_stops for stop in stops]
+        of_rig += ["isolator_memory"] if rig.oscillator.isolator.remembers else []
+    each = [f"{name}.{stop}" for name in of_stops for stop in system.stops]
     return (*of_masses, *of_rig, *each, "time")
 
 

@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.errors import InputError, warn_of_input
-from vibroimpact.model import Assembly, Harmonic, equilibrium
+from vibroimpact.model import Harmonic, equilibrium
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import NONE, written_for
 from vibroimpact.response.analytic_free_response import reference_excursions
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig, engine_system
 
 _FACTOR = 1000.0
 """Between a metre and a millimetre."""
@@ -62,7 +62,7 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None) -> list[str]:
     list of str
         What is doubted, for the notes of a dataset.
     """
-    if rig.oscillator.units == NONE:
+    if rig.system.by_mass or rig.system.units == NONE:
         return []  # a factor of 1000 is a mix-up of units
     return [*_doubt_stiffnesses(rig), *_doubt_gaps(rig, displacement)]
 
@@ -70,7 +70,7 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None) -> list[str]:
 def _doubt_stiffnesses(rig: Rig) -> list[str]:
     """Doubt stops that the isolator outweighs by far, and that are usual in MN/m."""
     spring = rig.oscillator.isolator.initial_stiffness
-    pairs = [stop.spring_and_dashpot for stop in rig.oscillator.stops]
+    pairs = [stop.spring_and_dashpot for stop in rig.oscillator.stops.values()]
     notes = [
         f"{plain(stiffness / _MILLI, 4)} mN/m is {stiffness / spring:.3g} times the stiffness of "
         f"the isolator; is {plain(stiffness / _MILLI, 4)} MN/m meant?"
@@ -83,7 +83,7 @@ def _doubt_stiffnesses(rig: Rig) -> list[str]:
 
 def _doubt_gaps(rig: Rig, displacement: ArrayLike | None) -> list[str]:
     oscillator = rig.oscillator
-    gaps = sorted({stop.gap for stop in oscillator.stops if stop.gap >= _LEAST})
+    gaps = sorted({stop.gap for stop in oscillator.stops.values() if stop.gap >= _LEAST})
     if not gaps:
         return []
     reach, whose = _free(rig), "of free flight"
@@ -114,10 +114,8 @@ def doubt_frequency(rig: Rig, field: str) -> None:
     """
     system, forced = rig.system, rig.periodic.frequency
     # Of several masses, the highest natural frequency is compared.
-    highest = "highest " if isinstance(system, Assembly) else ""
-    natural = system.angular_frequency / math.tau
-    if isinstance(system, Assembly):
-        natural = float(system.natural_frequencies.max())
+    highest = "highest " if system.by_mass else ""
+    natural = engine_system(system).highest_frequency
     if system.units == NONE or not natural > 0.0:
         return
     if forced <= _FAST * natural:
@@ -135,10 +133,9 @@ def note_unbounded(rig: Rig) -> list[str]:
 
     Without a spring there is no η at all.
     """
-    oscillator = rig.oscillator
-    if not has_no_bound(rig):
+    if rig.system.by_mass or not has_no_bound(rig):
         return []
-    natural = undamped_frequency(oscillator)
+    natural = undamped_frequency(rig.oscillator)
     size = 0.5 * reference_excursions(rig)[0]
     with written_for(rig):
         return [
@@ -166,8 +163,10 @@ def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
     list of str
         One line for each such stop, for the notes of a dataset.
     """
+    if rig.system.by_mass:
+        return []
     oscillator = rig.oscillator
-    preloaded = oscillator.force or any(stop.gap < 0.0 for stop in oscillator.stops)
+    preloaded = oscillator.force or any(stop.gap < 0.0 for stop in oscillator.stops.values())
     if not preloaded or par.laws(engine_rig(rig)) == par.LINEAR:
         return []
     try:

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import AssemblyState, Repeated, Rig, State
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import EngineSystem, engine_rig, engine_system
 from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import CYCLES, Progress, Tally, watched
 
@@ -39,9 +38,9 @@ class PreparedRig(NamedTuple):
         return self.rig.periodic
 
     @property
-    def states(self) -> SectionStates:
+    def states(self) -> EngineSystem:
         """How states stand in vectors."""
-        return SectionStates(self.rig.system)
+        return engine_system(self.rig.system)
 
     def state(self, start: State | AssemblyState | None = None) -> _Array:
         """Return the engine's vector of a state. Default: at rest at the static equilibrium."""

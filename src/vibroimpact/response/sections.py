@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import by_stop
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, Oscillator, to_si
+from vibroimpact.model import to_si
 from vibroimpact.model.argument_types import PositiveInt, check_samples
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.assembly_rows import names_of_parts
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contacts
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import recorded
 from vibroimpact.response.prepared_rig import prepare
-from vibroimpact.response.section_states import SectionStates
 
 _MAX_EVENTS = 10_000
 
@@ -60,8 +56,7 @@ def stroboscopic_section(
         If the dataset does not hold a motion with samples, or if a value is invalid.
     """
     origin = recorded(motion, masses=True)
-    if isinstance(origin.system, Assembly):
-        check_size(origin.system)
+    engine_system(origin.system).check_size()
     angle = to_si(phase, ANGLE, "phase")
     count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
     check_samples(count, 1, "cycles")
@@ -81,45 +76,14 @@ def stroboscopic_section(
         warn_of_result(
             f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}"
         )
-    data = xr.Dataset(section_variables(origin.system, points, ("section_point",)))
-    data = data.assign_coords(names_of_parts(origin.system))
+    data = xr.Dataset(states.section_variables(points, ("section_point",)))
+    data = data.assign_coords(part_names(origin.system, "mass", "stop"))
     return describe(
         data,
         "vibroimpact.stroboscopic_section",
         {**motion_parameters(motion), "section": angle},
         noted(motion),
     )
-
-
-def section_variables(
-    system: System, points: NDArray[np.float64], dims: tuple[str, ...]
-) -> dict[str, Any]:
-    """Return points of a section as variables.
-
-    Parameters
-    ----------
-    system
-        The oscillator or the assembly.
-    points : ndarray, shape (..., part)
-        As `SectionStates` has them. Of an oscillator, the deformation of the left stop is negative
-        if it is compressed.
-    dims
-        Names of the dims of the points.
-    """
-    states = SectionStates(system)
-    n, stops = states.masses, states.stops
-    u, v, d = points[..., :n], points[..., n : 2 * n], points[..., 2 * n : 2 * n + stops]
-    by_mass, of_stops = (*dims, "mass"), (*dims, "stop")
-    if isinstance(system, Oscillator):
-        by_mass, u, v = dims, u[..., 0], v[..., 0]
-        d = by_stop(system, d * [1.0, -1.0] + 0.0)
-    else:
-        d = np.maximum(d, 0.0)
-    return {
-        "section_displacement": (by_mass, u),
-        "section_velocity": (by_mass, v),
-        "section_deformation": (of_stops, d),
-    }
 
 
 @public

@@ -15,15 +15,11 @@ from vibroimpact.datasets.description import (
     noted,
     system_parameters,
 )
-from vibroimpact.engine.assembly.record import E_ORDERED
-from vibroimpact.engine.one_mass import record as observed
-from vibroimpact.engine.state import FIRST
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import (
-    Assembly,
     AssemblyState,
-    Oscillator,
     Record,
     Repeated,
     State,
@@ -38,26 +34,13 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.assembly_rig import check_laws
-from vibroimpact.response.assembly_rows import names_of_parts
-from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.engine_input import engine_state
-from vibroimpact.response.history_variables import (
-    busiest_by_mass,
-    doubts_by_mass,
-    listed,
-    listed_by_mass,
-    sampled,
-    sampled_by_mass,
-    transmitted,
-)
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import EngineSystem, engine_system
+from vibroimpact.response.history_variables import Written
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.response.record_history import base_acceleration
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.softening_limit import ended
 from vibroimpact.response.written_motion import WrittenMotion
 from vibroimpact.tasks.threads import Progress
 
@@ -139,8 +122,6 @@ def simulate(
     if frequency is not None:
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
-    if isinstance(rig.system, Assembly):
-        return data
     # A short motion shows nothing: only the closed form of free flight counts.
     notes = [*noted(data), *doubt_stops(rig)]
     return describe(data, "vibroimpact.simulate", notes=notes)
@@ -179,8 +160,6 @@ def compute_history(
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
     data = _history(rig.system, excitation, length, start, samples, max_events, progress)
-    if isinstance(rig.system, Assembly):
-        return data
     notes = [*noted(data), *note_stiff_stops(rig, excitation.frequency)]
     return describe(data, "vibroimpact.simulate", notes=notes)
 
@@ -196,35 +175,25 @@ def _history(
 ) -> xr.Dataset:
     """Follow a motion, and return what was written down of it; ``length`` as of `WrittenMotion`."""
     record = shaking if isinstance(shaking, Record) else None
-    if isinstance(system, Assembly):
-        check_laws(system)
-    elif record is None and system.isolator.linear:
-        check_bounded(Rig(system, shaking))  # in closed form about its steady motion
-    states = SectionStates(system)
+    states = engine_system(system)
+    states.check_motion(shaking)
     state: Any = states.read(start)
     phase, ends = 0.0, length
     if isinstance(shaking, Record):
         ends = shaking.duration + length
     else:
         phase = shaking.phase if state.phase is None else state.phase
-    vector = (
-        assembly_vector(system, state)
-        if isinstance(system, Assembly)
-        else engine_state(system, state)
-    )
+    vector = states.motion_vector(state)
     first = states.components(vector, phase)
-    run = WrittenMotion(system, shaking, length, phase, vector, samples, max_events)
+    run = WrittenMotion(states, shaking, length, phase, vector, samples, max_events)
     finished = run.follow(progress)
-    told = run.status
-    if isinstance(system, Oscillator):
-        told = ended(system, run.status, run.out[observed.DISPLACEMENT], vector[FIRST])
+    told = states.ended(run.status, run.out, vector)
     if run.status is not Status.DONE:
         run.cut(finished)
         ends = finished * (record.step if record else 1.0)
         where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
-        cause = ""
-        if isinstance(system, Assembly) and run.status is Status.TOO_MANY_EVENTS:
-            cause = busiest_by_mass(np.concatenate(run.events), finished, system)
+        too_many = run.status is Status.TOO_MANY_EVENTS
+        cause = states.cause_of_events(run.events, finished) if too_many else ""
         advice = f"{told.advice}; here, {cause}" if cause else told.advice
         warn_of_result(f"simulate stopped {where}: {advice}")
     elif told is not run.status:
@@ -235,17 +204,15 @@ def _history(
     }
     coordinates: dict[str, Any] = {"component": states.names}
     notes: list[str] = [] if record is None else [*record.about.notes]
-    if isinstance(system, Assembly):
-        rows = np.concatenate(run.events)
-        variables["simultaneous_impacts"] = int(rows[:, E_ORDERED].sum())
-        doubts = doubts_by_mass(rows, run.undecided, run.section)
-        for one in doubts:
-            warn_of_result(f"simulate: {one}")
-        notes += doubts
+    counts, doubts = states.event_doubts(run.events, run.undecided, run.section)
+    variables |= counts
+    for one in doubts:
+        warn_of_result(f"simulate: {one}")
+    notes += doubts
     if samples:
         variables["initial_state"] = ("component", first)
-        coordinates |= names_of_parts(system)
-        variables |= _variables(run, system, ends, coordinates)
+        coordinates |= part_names(system, "mass", "stop")
+        variables |= _variables(run, states, ends, coordinates)
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     data.attrs["message"] = told.advice
@@ -258,7 +225,7 @@ def _history(
 
 
 def _variables(
-    run: WrittenMotion, system: System, ends: float, coordinates: dict[str, Any]
+    run: WrittenMotion, states: EngineSystem, ends: float, coordinates: dict[str, Any]
 ) -> dict[str, Any]:
     """Return samples and events, and write the times of the samples into the coordinates."""
     shaking, samples, count = run.shaking, run.samples, run.out.shape[1]
@@ -272,25 +239,11 @@ def _variables(
         coordinates["time"] = cycle / shaking.frequency
         coordinates["cycle"] = ("time", cycle)
         name, values = _shaking(shaking, run.phase, cycle, samples)
-    if isinstance(system, Assembly):
-        on = None
-        if name == "applied_force":
-            assert not isinstance(shaking, Record)
-            on = shaking.on or system.names[0]
-        found = sampled_by_mass(run.out, system, values, on)
-        events = listed_by_mass(np.concatenate(run.events), run.interval, system)
-    else:
-        found = sampled(run.out, system)
-        events = listed(run.events, run.interval, system)
+    found = states.histories(
+        Written(run.out, run.events, run.interval, shaking, run.phase, name, values)
+    )
     if isinstance(shaking, Record):  # a record has steps, not cycles
-        events = {name: one for name, one in events.items() if "cycle" not in name}
-    found |= {name: ("time", values), **events}
-    if isinstance(system, Oscillator):
-        forces: tuple[Any, ...] = ()
-        if not isinstance(shaking, Record) and not shaking.moves_base:
-            _, since = found["event_cycle_time"]
-            forces = values, shaking.at(shaking.angular_frequency * since + run.phase)
-        found |= transmitted(found, system, *forces)
+        found = {name: one for name, one in found.items() if "cycle" not in name}
     return found
 
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import Positive
 from vibroimpact.model.public import public
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import Origin, fourier_integrals, recorded
 from vibroimpact.response.sine_fit import forcing_sine
 
@@ -90,7 +90,8 @@ def _exact(motion: xr.Dataset, origin: Origin, order: NDArray[np.float64]) -> li
     rates = order * origin.repeated.angular_frequency
     scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.repeated.period)
     found = fourier_integrals(motion, origin, rates) * scale[:, np.newaxis]
-    return [*(found if isinstance(origin.system, Assembly) else found[..., 0])]
+    _, amplitudes = engine_system(origin.system).of_masses((), found)
+    return [*amplitudes]
 
 
 def _windowed(

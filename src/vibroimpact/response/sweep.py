@@ -21,7 +21,7 @@ from vibroimpact.datasets.description import (
 from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, State, to_si
+from vibroimpact.model import State, to_si
 from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
@@ -33,12 +33,11 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rows import check_alike, notes_on
+from vibroimpact.response.assembly_rows import check_alike
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, read_outputs
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops, note_unbounded
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
 from vibroimpact.response.sweep_outputs import add_sweep_outputs
@@ -193,14 +192,14 @@ def sweeps(
         If a value is invalid.
     """
     named = periodic_rigs(rigs, any_masses=True)
-    several = any(isinstance(rig.system, Assembly) for rig in named.values())
-    if several:
-        check_alike({k: rig.system for k, rig in named.items()}, "rigs", "mass", "stop")
+    systems = {name: rig.system for name, rig in named.items()}
+    if any(one.by_mass for one in systems.values()):
+        check_alike(systems, "rigs", "mass", "stop")
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
-    starts = [None if start is None else SectionStates(rig.system).read(start) for rig in pairs]
+    starts = [None if start is None else engine_system(rig.system).read(start) for rig in pairs]
     if starts[0] is not None and starts[0].phase is not None:
         angle = starts[0].phase
     settling = Settling(tolerance, max_cycles, window, max_events)
@@ -232,18 +231,15 @@ def sweeps(
     }
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
-        if isinstance(rig.system, Assembly):
-            continue
-        oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
+        held, hardest = HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
-        held.status[...] = judged(oscillator, held.status, swing)
+        held.status[...] = engine_system(rig.system).judged(held.status, swing)
         doubts += [
             *doubt_stops(hardest, swing),
             *note_unbounded(hardest),
             *note_stiff_stops(hardest, float(grid[0])),
         ]
-    if isinstance(pairs[0].system, Assembly):
-        doubts = notes_on(pairs[0].system, results, "motions")
+    doubts += engine_system(pairs[0].system).doubts_of_rows(results, "motions")
     data = sweep_dataset([rig.system for rig in pairs], ready, results, states, angle)
     data = data.assign_coords(rig=names, direction=list(directions), frequency=grid)
     if outputs:

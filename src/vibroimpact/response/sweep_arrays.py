@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.settling import PATIENT
-from vibroimpact.model import Assembly, AssemblyState, Rig, State
+from vibroimpact.model import AssemblyState, Rig, State
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
     exciting_excursion,
@@ -16,11 +16,9 @@ from vibroimpact.response.analytic_free_response import (
     free_transmitted_excursion,
     reference_excursions,
 )
-from vibroimpact.response.assembly_rig import assembly_numbers, check_size
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig, engine_system
 from vibroimpact.response.free_response import swept_flight
 from vibroimpact.response.hold_rows import Settling, sweep_holds
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]
@@ -59,10 +57,10 @@ def plan_sweep(
     """
     levels = rig.levels(len(frequencies))
     rig = rig.hardest
-    states = SectionStates(rig.system)
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
-        vector = assembly_numbers(rig.system, rig.periodic, tables=True)
+    states = engine_system(rig.system)
+    states.check_size()
+    if rig.system.by_mass:
+        vector = states.numbers(rig.periodic, tables=True)
         begin, none = states.vector_of(state or states.read(None)), np.empty(0)
         return SweepPlan(frequencies, vector, levels, begin, none, none, none)
     oscillator, shaken = rig.oscillator, rig.periodic

@@ -9,12 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import stops_of
-from vibroimpact.model import Assembly, Oscillator
-from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_rows import measured_variables, names_of_parts
+from vibroimpact.datasets.stops import shared_part_names
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.hold_rows import HoldRows
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep_arrays import SweepPlan
 
 _Array = NDArray[np.float64]
@@ -42,17 +40,17 @@ def sweep_dataset(
     """
     dims = ("rig", "direction", "frequency")
     first = systems[0]
-    stops = stops_of(*(one for one in systems if isinstance(one, Oscillator)))
+    names = shared_part_names(systems)
     found = [
-        measured_variables(one, part, dims[1:], stops=stops)
+        engine_system(one).measured(part, dims[1:], stops=names["stop"])
         for one, part in zip(systems, results, strict=True)
     ]
     variables: dict[str, Any] = {}
     for name, (of, _) in list(found[0].items()):
         # What is stacked is not kept a second time.
         variables[name] = (("rig", *of), np.stack([one.pop(name)[1] for one in found]))
-    rows, at_end = HoldRows(results), SectionStates(first)
-    if not isinstance(first, Assembly):
+    rows, at_end = HoldRows(results), engine_system(first)
+    if not first.by_mass:
         variables |= _beside_free_flight(systems, plans, rows, variables)
     variables |= {
         "motion": (dims, np.where(rows.period > 0, "periodic", "undecided")),
@@ -61,7 +59,7 @@ def sweep_dataset(
         "status": (dims, rows.status.astype(np.int64)),
         "section": ((*dims, "component"), at_end.components(states, phase)),
     }
-    parts = names_of_parts(first) if isinstance(first, Assembly) else {"stop": stops}
+    parts = {dim: names[dim] for dim in ("mass", "stop") if dim in names}
     return xr.Dataset(variables, {**parts, "component": at_end.names})
 
 
@@ -74,7 +72,7 @@ def _beside_free_flight(
     largest = np.stack([one.largest for one in plans], axis=1)
     exciting = np.array([one.exciting for one in plans])
     swing, acceleration = largest[..., np.newaxis, np.newaxis]
-    masses = np.array([[one.mass] for one in systems if isinstance(one, Oscillator)])
+    masses = np.array([[engine_system(one).largest_mass] for one in systems])
     along = ("rig", "frequency")
     return {
         "eta_d": (dims, known["displacement_excursion"][1] / swing),

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.outputs import NamedOutput, add_outputs, computed
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.threads import Progress, Workers, each
 
 _Array = NDArray[np.float64]
@@ -37,7 +37,7 @@ class _Hold(NamedTuple):
         shaken = self.rig.hardest.periodic.replace(
             amplitude=self.amplitude, frequency=self.frequency, phase=self.phase
         )
-        start = SectionStates(self.rig.system).state(self.state, self.phase)
+        start = engine_system(self.rig.system).state(self.state, self.phase)
         return computed(own, Rig(self.rig.system, shaken), start, cycles)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 
 
@@ -47,5 +47,5 @@ def arrivals(
             max_events=max_events,
         )
         last = data["section"].isel(direction=0, frequency=-1 if forward else 0, drop=True)
-        arrived[f"{direction} branch"] = SectionStates(system).read(last)
+        arrived[f"{direction} branch"] = engine_system(system).read(last)
     return arrived

@@ -9,11 +9,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.model import Assembly
 from vibroimpact.model.public import public
-from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_rows import coordinates, range_variables
+from vibroimpact.model.rig import several_masses_only
+from vibroimpact.model.system import System
+from vibroimpact.response.assembly_rows import range_variables
 from vibroimpact.response.motion_phases import Phases, phases, recorded
 from vibroimpact.response.stored_energy import StoredEnergy
 
@@ -56,7 +57,8 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     """
     origin = recorded(motion, masses=True, records=True)
     found = phases(motion, origin)
-    data = xr.Dataset({**extremes(found), **energies(found)}, coordinates(origin.system))
+    parts = part_names(origin.system, "mass", "link", "stop") if origin.system.by_mass else {}
+    data = xr.Dataset({**extremes(found), **energies(found)}, parts)
     begins = [] if "mass" in motion.dims else _begins_with_an_impact(motion)
     notes = [*noted(motion), *begins, *found.notes, *energy_notes(origin.system)]
     return describe(data, "vibroimpact.totals", motion_parameters(motion), notes)
@@ -78,12 +80,13 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
 
 def energy_notes(system: System) -> list[str]:
     """Say which energies are not known, if so."""
-    if not isinstance(system, Assembly):
+    if not system.by_mass:
         return []
-    lossy = StoredEnergy(system).lossy
+    assembly = several_masses_only(system)
+    lossy = StoredEnergy(assembly).lossy
     if lossy.sum() < 2:
         return []
-    names = [name for name, loses in zip(system.links, lossy, strict=True) if loses]
+    names = [name for name, loses in zip(assembly.links, lossy, strict=True) if loses]
     return [
         f"links: total_links of {', '.join(names)} is NaN; only the sum of their losses is known, "
         "from the balance of the other energies"
@@ -107,7 +110,7 @@ def extremes(found: Phases) -> dict[str, Any]:
         "eccentricity": ("mass", 0.5 * (low.min(axis=0) + high.max(axis=0))),
     }
     system = found.system
-    if not isinstance(system, Assembly):
+    if not system.by_mass:
         return {
             name: float(np.squeeze(value))
             for name, (_, value) in values.items()
@@ -118,7 +121,7 @@ def extremes(found: Phases) -> dict[str, Any]:
     struck = np.bincount(stop, rows[at, layout.STRUCK], count)
     pressed = found.pressed
     begun = (pressed[1:] & ~pressed[:-1]).sum(axis=0)
-    rigid = np.array([one.stop.rigid for one in system.stops.values()], dtype=bool)
+    rigid = np.array([one.rigid for one in system.stop_laws.values()], dtype=bool)
     hit, force = np.bincount(stop, minlength=count), found.of_stop(layout.FORCE).max(axis=0)
     drift = found.of_drift(layout.D_LEAST), found.of_drift(layout.D_MOST)
     return {
@@ -139,13 +142,14 @@ def energies(found: Phases) -> dict[str, Any]:
     system, supplied = found.system, float(found.rows[:, layout.WORK].sum())
     lost = float(found.rows[:, layout.LOST].sum())
     stops = (found.of_stop(layout.LOSES) + found.of_stop(layout.HIT)).sum(axis=0)
-    if not isinstance(system, Assembly):
+    if not system.by_mass:
         return {
             "total_supplied": supplied,
             "total_isolator": lost,
             "total_bumpers": float(stops.sum()),
         }
-    energy, links = StoredEnergy(system), found.of_drift(layout.D_LOST).sum(axis=0)
+    energy = StoredEnergy(several_masses_only(system))
+    links = found.of_drift(layout.D_LOST).sum(axis=0)
     # The engine counts what a stop without memory takes up while it is touched, lost or not.
     stops = stops - (energy.of_pressed(found.final) - energy.of_pressed(found.begin))
     stored, damping = energy.of(found.final) - energy.of(found.begin), lost - links.sum()

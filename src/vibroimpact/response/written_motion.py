@@ -9,15 +9,11 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, record_forcing
 from vibroimpact.engine.assembly import layout
-from vibroimpact.engine.assembly import record as several
 from vibroimpact.engine.flow_tables import plan_of
-from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Record, Repeated
+from vibroimpact.model import Record, Repeated
 from vibroimpact.model.argument_types import check_samples
-from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_rig import assembly_numbers
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import EngineSystem
 from vibroimpact.response.record_history import straight
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
@@ -47,7 +43,7 @@ class WrittenMotion:
 
     def __init__(
         self,
-        system: System,
+        system: EngineSystem,
         shaking: Repeated | Record,
         length: float,
         phase: float,
@@ -65,16 +61,11 @@ class WrittenMotion:
         else:
             self.interval, self.total = shaking.period, length
             count = math.ceil(length * samples - 1e-9)
-        rows, self.columns = record.SAMPLE, record.EVENT
+        rows, self.columns = system.record_widths
+        self.vector = system.numbers(shaking)
+        self.by_mass = system.system.by_mass
         # Impacts that were ordered by a rule are counted, so that events are always listed.
-        self.lists_events = samples > 0 or isinstance(system, Assembly)
-        if isinstance(system, Assembly):
-            masses = len(system.names)
-            rows = several.samples_of(masses, len(system.stops))
-            self.columns = several.event_width(masses)
-            self.vector = assembly_numbers(system, shaking)
-        else:
-            self.vector = engine_rig(Rig(system, shaking))
+        self.lists_events = samples > 0 or self.by_mass
         self.out = np.empty((rows, count + 1 if samples else 0))
         self.events: list[_Array] = []
         """Rows of events, in parts."""
@@ -100,7 +91,7 @@ class WrittenMotion:
             at, count, outcome = entry.on(plan, self.vector, *arguments, self.out, buffer)
             if self.lists_events:
                 self.events.append(buffer[:count].copy())
-            if self.columns != record.EVENT:
+            if self.by_mass:
                 self.undecided |= bool(plan[layout.UNDECIDED] > 0.0)
         self.status = Status(outcome)
         # The section that was given up is left out; its events until then are kept.

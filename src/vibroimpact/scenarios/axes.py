@@ -217,7 +217,7 @@ class Base(NamedTuple):
         return made.with_parts(made.oscillator.replace(**sides))
 
     def _check(self, values: Mapping[str, float]) -> None:
-        stops = self.base.oscillator.stops
+        stops = self.base.oscillator.stops.values()
         if not stops:
             raise InputError("rig: there is no stop; pass a rig with one or two stops")
         for name in values:

@@ -73,7 +73,7 @@ def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
     damped = oscillator.isolator.linear and oscillator.isolator.damping > 0.0
     if not damped:
         return False
-    for stop in oscillator.stops:
+    for stop in oscillator.stops.values():
         if stop.rigid:
             continue
         if stop.spring_and_dashpot is None:

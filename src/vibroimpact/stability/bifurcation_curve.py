@@ -31,7 +31,6 @@ from vibroimpact.datasets.description import (
     system_parameters,
 )
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import PositiveInt
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.public import public
@@ -113,7 +112,7 @@ def bifurcation_curve(
             f"computed; pass {start.attrs.get('parameter')!r} and another one"
         )
     kind = start["bifurcation_kind"].item()
-    if kind == GRAZING and isinstance(rig.system, Assembly):
+    if kind == GRAZING and rig.system.by_mass:
         raise InputError(
             "start: a grazing, of which no curve is followed for an Assembly of several masses; "
             "pass a fold, a symmetry breaking, a period doubling or a Neimark-Sacker bifurcation"

@@ -23,11 +23,11 @@ from vibroimpact.datasets.description import (
     excitation_parameters,
     system_parameters,
 )
-from vibroimpact.datasets.stops import stop_names
+from vibroimpact.datasets.stops import part_names, stop_names
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, Rig, State
+from vibroimpact.model import Rig, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
     NonNegativeInt,
@@ -40,15 +40,11 @@ from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
-from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.model.system import System
+from vibroimpact.response.engine_system import EngineSystem, engine_rig, engine_system
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.sections import section_variables
-from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
+from vibroimpact.stability.diagram_point import Kind, Look, Seen, look_at, point_width
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Tally, each
@@ -165,10 +161,9 @@ def bifurcation_diagram(
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     system = rig.system
-    if isinstance(system, Assembly):
-        check_size(system)
-        if section != "stroboscopic":
-            raise InputError(f"section: {shown(section)}; for an Assembly, use 'stroboscopic'")
+    engine_system(system).check_size()
+    if system.by_mass and section != "stroboscopic":
+        raise InputError(f"section: {shown(section)}; for an Assembly, use 'stroboscopic'")
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]
@@ -264,7 +259,7 @@ def _ways(
             "directions: neither a direction nor a start is given; pass at least one direction, "
             "such as 'up', or a start"
         )
-    states = SectionStates(system)
+    states = engine_system(system)
     ways: dict[str, _Array | None] = dict.fromkeys(given)
     return ways | {str(name): states.vector_of(states.read(one)) for name, one in named.items()}
 
@@ -291,11 +286,11 @@ def _dataset(
 
     The points of each value are padded with NaN.
     """
-    states = SectionStates(system)
+    states = engine_system(system)
     seen = list(itertools.chain.from_iterable(found.values()))
     shape, dims = (len(found), len(values)), ("start", name)
     most = max((len(one.points) for one in seen), default=0)
-    width = states.parts if isinstance(system, Assembly) else len(POINT[section])
+    width = point_width(section, states)
     padded: _Array = np.full((len(seen), most, width), np.nan)
     for row, one in zip(padded, seen, strict=True):
         row[: len(one.points)] = one.points
@@ -316,26 +311,27 @@ def _dataset(
     }
     ends = states.components(np.array([one.held.found.state for one in seen]), phase)
     variables: dict[str, Any] = {
-        **measured_variables(system, measured, dims),
+        **states.measured(measured, dims),
         **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **_points(system, padded, section, (*dims, "section_point")),
+        **_points(states, padded, section, (*dims, "section_point")),
         "section": ((*dims, "component"), ends.reshape(*shape, -1)),
     }
     coordinates = {
         "start": list(found),
         name: values,
         "component": states.names,
-        **names_of_parts(system),
+        **part_names(system, "mass", "stop"),
     }
-    doubts = notes_on(system, measured, "motions") if isinstance(system, Assembly) else []
-    return xr.Dataset(variables, coordinates), doubts
+    return xr.Dataset(variables, coordinates), states.doubts_of_rows(measured, "motions")
 
 
-def _points(system: System, points: _Array, section: Kind, dims: tuple[str, ...]) -> dict[str, Any]:
+def _points(
+    states: EngineSystem, points: _Array, section: Kind, dims: tuple[str, ...]
+) -> dict[str, Any]:
     """Return the points of a section as variables; of those that are padded nothing is known."""
     if section == "stroboscopic":
-        return section_variables(system, points, dims)
+        return states.section_variables(points, dims)
     stop, phase, velocity = np.moveaxis(points, -1, 0)
     return {
         "contact_stop": (dims, np.where(np.isnan(stop), "", stop_names(stop))),

@@ -9,12 +9,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, rig_parameters
+from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine import orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
-from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
 from vibroimpact.response.hold_rows import results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
@@ -86,13 +85,8 @@ def as_dataset(
         name: ("point", [one.value for one in orbits]),
         "component": fam.layout.names,
     }
-    coordinates |= names_of_parts(fam.layout.system)
-    assembly = fam.layout.system
-    doubts = (
-        notes_on(assembly, rows, "orbits")
-        if isinstance(assembly, Assembly)
-        else note_unbounded(fam.rig)
-    )
+    coordinates |= part_names(fam.rig.system, "mass", "stop")
+    doubts = [*fam.layout.doubts_of_rows(rows, "orbits"), *note_unbounded(fam.rig)]
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     add_outputs(data, own, _output_values(own, orbits))
@@ -182,11 +176,12 @@ def _contacts(found: Bifurcation) -> str:
     system = found.orbit.section.family.layout.system
 
     def counted(contacts: tuple[int, ...]) -> str:
-        if isinstance(system, Assembly):
-            names = zip(contacts, system.stops, strict=True)
+        if system.by_mass:
+            names = zip(contacts, system.counted_stops, strict=True)
             return ", ".join(f"{count} {name}" for count, name in names)
         right, left = contacts
-        return contact_counts(right, left, (system.right, system.left))
+        laws = system.stop_laws
+        return contact_counts(right, left, (laws.get("right"), laws.get("left")))
 
     before = counted(found.orbit.contacts)
     if found.contacts_behind == found.orbit.contacts:
@@ -209,7 +204,7 @@ def _rows(fam: Family, orbits: list[Orbit]) -> _Array:
 def _sizes(fam: Family, orbits: list[Orbit], rows: _Array, dim: str) -> dict[str, Any]:
     """Return extremes, excursions, contacts per cycle and contact forces of orbits."""
     # Neither the mass nor whether a stop is rigid changes along a branch.
-    found = measured_variables(fam.layout.system, rows, (dim,))
+    found = fam.layout.measured(rows, (dim,))
     if fam.of_several_masses:
         return found
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, AssemblyState, Repeated, State
+from vibroimpact.model import AssemblyState, Repeated, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
     NonNegativeInt,
@@ -24,8 +24,7 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.stability.equivalence import image_of, mirrors, same
 from vibroimpact.stability.nearest_state import nearest_state, random_state
@@ -121,8 +120,7 @@ def coexisting_motions(
         If a value is invalid.
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
+    engine_system(rig.system).check_size()
     motions = find_motions(
         rig,
         frequencies=frequencies,
@@ -179,7 +177,7 @@ def find_motions(
     and to its mirror image. Parameters and errors are those of `coexisting_motions`.
     """
     system, excitation = rig.system, rig.harmonic
-    states = SectionStates(system)
+    states = engine_system(system)
     check_samples(window, samples, "window")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []

@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.written_units import unitless
@@ -54,7 +53,7 @@ def curves_of_kind(
     along, beside = read_ranges(vary, rig, 2)
     first, second = names = along.parameter.name, beside.parameter.name
     shaking = rig.harmonic
-    one_branch = first != "frequency" or isinstance(rig.system, Assembly)
+    one_branch = first != "frequency" or rig.system.by_mass
     if first == "frequency":
         natural = rig.system.angular_frequency / math.tau
         begin = along.low if one_branch else natural or 1.0

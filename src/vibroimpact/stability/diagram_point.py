@@ -12,9 +12,8 @@ from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers.record import DETACHMENT
 from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator
+from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.outputs import NamedOutput, computed
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit, judge_sections
 from vibroimpact.stability.motion_type import Judgement
@@ -27,17 +26,19 @@ _Array = NDArray[np.float64]
 Kind = Literal["stroboscopic", "impacts"]
 """Once a forcing cycle, or at the beginning of every contact."""
 
-POINT: dict[Kind, tuple[str, ...]] = {
-    "stroboscopic": ("displacement", "velocity", "right", "left"),
-    "impacts": ("stop", "phase", "velocity"),
-}
-"""What the columns of points hold, as the engine writes it."""
+_IMPACT = ("stop", "phase", "velocity")
+"""What the columns of an impact hold."""
 
 _ROOM = 4096  # contacts that are written between two looks at the clock
 
 
 LONGER = 4, 20
 """How many times as long a motion is followed, in turn, if it may be a torus or weakly chaotic."""
+
+
+def point_width(section: Kind, states: EngineSystem) -> int:
+    """Return the number of columns of a point of a section."""
+    return len(_IMPACT) if section == "impacts" else states.parts
 
 
 class Look(NamedTuple):
@@ -71,7 +72,7 @@ def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Se
     if not outputs:
         return seen
     found = seen.held.found
-    start = SectionStates(found.rig.system).state(found.state, found.excitation.phase)
+    start = engine_system(found.rig.system).state(found.state, found.excitation.phase)
     cycles = seen.kind.period or look.points
     return seen._replace(outputs=computed(outputs, found.rig, start, cycles))
 
@@ -97,8 +98,6 @@ def _looked_at(held: Held, look: Look) -> Seen:
         if not len(rows):
             status, rows = _followed(found, cycles, look.max_events)
         points = rows[:cycles, lyapunov.SECTION :]
-        if isinstance(found.states.system, Oscillator):
-            points = points[:, : len(POINT["stroboscopic"])]
     if status is not Status.DONE:
         return _nothing(held, look, status)
     named = Status.NOT_SETTLED if kind.motion == "undecided" else Status.DONE
@@ -155,5 +154,5 @@ def _nothing(held: Held, look: Look, status: Status) -> Seen:
     empty = np.full(2, np.nan)
     kind = Judgement("undecided", 0, empty, empty, status.advice)
     states = held.found.states
-    width = len(POINT[look.section]) if isinstance(states.system, Oscillator) else states.parts
+    width = point_width(look.section, states)
     return Seen(held, kind, np.empty((0, width)), status)

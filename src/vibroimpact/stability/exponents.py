@@ -14,7 +14,7 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, AssemblyState, Oscillator, Rig, State, to_si
+from vibroimpact.model import AssemblyState, Rig, State, to_si
 from vibroimpact.model.argument_types import (
     MaxEvents,
     NonNegativeInt,
@@ -26,10 +26,8 @@ from vibroimpact.model.parameters import set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
 from vibroimpact.stability.settled_motion import section_sizes
@@ -140,7 +138,7 @@ def lyapunov_exponents(
         if one is not None and one.phase is not None:
             angle = one.phase
     workers = workers_for(threads, where)
-    counts = [2 * SectionStates(rig.system).masses for rig in pairs]
+    counts = [2 * engine_system(rig.system).masses for rig in pairs]
     if count is not None:
         asked = whole(count, "count", most=max(counts))
         counts = [min(asked, one) for one in counts]
@@ -241,9 +239,8 @@ def lyapunov_exponents(
 
 def _start(rig: Rig, start: Any) -> State | AssemblyState | None:
     """Return the initial state of a rig; None for its rest."""
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
-    return None if start is None else SectionStates(rig.system).read(start)
+    engine_system(rig.system).check_size()
+    return None if start is None else engine_system(rig.system).read(start)
 
 
 def _rig_at(
@@ -258,6 +255,5 @@ def _rig_at(
     size = float(rig.levels(len(grid))[i])
     here = rig.hardest.periodic.replace(amplitude=size, frequency=float(grid[i]), phase=phase)
     moved = set_values(Rig(rig.system, here), numbers)
-    if isinstance(moved.system, Oscillator):
-        check_bounded(moved, f"frequencies[{i}]")
+    engine_system(moved.system).check_bounded(moved, f"frequencies[{i}]")
     return moved

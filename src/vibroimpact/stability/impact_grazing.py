@@ -56,7 +56,7 @@ def has_rigid_stop(orbit: Orbit) -> bool:
     family = orbit.section.family
     if family.of_several_masses:  # whose branches end at a grazing of a rigid stop
         return False
-    return any(stop.rigid for stop in family.oscillator.stops)
+    return any(stop.rigid for stop in family.oscillator.stops.values())
 
 
 def fewer(one: Orbit, other: Orbit) -> bool:

@@ -229,7 +229,7 @@ def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
     """Sizes of displacement, velocity, deformations and parameter."""
     states, omega = fam.layout, fam.excitation.angular_frequency
     # The nearer stop: the other may be far out of reach.
-    gap = min((one.gap for one in states.laws), default=0.0)
+    gap = min((one.gap for one in fam.rig.system.stop_laws.values()), default=0.0)
     n = states.masses
     moved = [abs(float(u)) for u in point[:n]]
     moved += [abs(float(v)) / omega for v in point[n : 2 * n]]

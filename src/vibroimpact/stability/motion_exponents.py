@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.engine_system import EngineSystem
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_type import Judgement, judge, repeats
 from vibroimpact.stability.settled_motion import Settled, section_sizes
@@ -45,7 +44,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
             damping,
         )
         if outcome != Status.DONE:
-            nothing = np.full(exponents(found.states), np.nan)
+            nothing = np.full(2 * found.states.masses, np.nan)
             told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
             return told, math.nan, 0, Status(outcome)
         rates.append(_rates(found.states, carried) / found.period)
@@ -65,22 +64,17 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 
 
-def exponents(states: SectionStates) -> int:
-    """How many exponents are computed: of an assembly one for each displacement and velocity."""
-    return 2 * states.masses if isinstance(states.system, Assembly) else 2
-
-
-def _rates(states: SectionStates, carried: _Array) -> _Array:
+def _rates(states: EngineSystem, carried: _Array) -> _Array:
     """Logarithms of the largest multipliers of an orbit; NaN if the second is lost in rounding.
 
     A bumper that is never touched only relaxes; it is left out. What an isolator remembers is
     kept: during a rest on a stop it is not coupled to the motion, and the motion still depends on
     it later in the cycle.
     """
-    if isinstance(states.system, Assembly):
+    if states.system.by_mass:
         moduli = np.sort(np.abs(np.linalg.eigvals(carried)))[::-1]
         with np.errstate(divide="ignore"):
-            found: _Array = np.log(moduli[: exponents(states)])
+            found: _Array = np.log(moduli[: 2 * states.masses])
         return found
     touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
     memory = ONE_MASS.of_point.memory()
@@ -132,7 +126,7 @@ def judge_wandering(
 def judge_sections(found: Settled, rows: _Array) -> Judgement:
     """Judge a motion by its sections, and the growth of disturbances between them."""
     # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
-    several = isinstance(found.states.system, Assembly)
+    several = found.states.system.by_mass
     return judge(
         rows[:, : lyapunov.DISSIPATION],
         rows[:, lyapunov.SECTION :] / section_sizes(found.engine),

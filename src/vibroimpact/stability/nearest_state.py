@@ -9,8 +9,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.state import FIRST, ONE_MASS
 from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig, engine_system
 
 _Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def random_state(rig: Rig, generator: np.random.Generator, size: float, omega: f
 
     It need not be possible: see `nearest_state`.
     """
-    states = SectionStates(rig.system)
+    states = engine_system(rig.system)
     n = states.masses
     drawn = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2 * n) * size
     state = np.zeros(states.width)
@@ -37,8 +37,8 @@ def nearest_state(rig: Rig, state: _Array) -> _Array:
 
     No mass is inside a stop, and no memory of an oscillator's isolator beyond its bounds.
     """
-    if isinstance(rig.system, Assembly):
-        return _of_assembly(rig.system, state)
+    if rig.system.by_mass:
+        return _of_assembly(rig.assembly, state)
     oscillator = rig.oscillator
     u, v = float(state[ONE_MASS.displacement()]), float(state[ONE_MASS.velocity()])
     if oscillator.right is not None and oscillator.right.rigid:
@@ -85,4 +85,4 @@ def _of_assembly(assembly: Assembly, state: _Array) -> _Array:
         velocity=dict(zip(names, v.tolist(), strict=True)),
         deformation=deformation,
     )
-    return SectionStates(assembly).vector_of(made)
+    return engine_system(assembly).vector_of(made)

@@ -7,7 +7,7 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
-from vibroimpact.model import Assembly, State
+from vibroimpact.model import State
 from vibroimpact.model.argument_types import Period, PositiveInt
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
@@ -83,7 +83,7 @@ def orbit(
     data.attrs["contacts"] = _sequence(data)
     data.attrs["created_by"] = "vibroimpact.orbit"
     data = describe(data, "vibroimpact.orbit")
-    if isinstance(rig.system, Assembly):
+    if rig.system.by_mass:
         data["monodromy"].attrs["comment"] = (
             "of the displacements and velocities of the masses and the deformations of the stops"
         )

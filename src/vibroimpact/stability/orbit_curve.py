@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import distance, is_other_curve, predicted
 from vibroimpact.continuation.closing import returned
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Oscillator
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.stability.chatter import Rested, completed_elsewhere, placed_at_rest, rests
 from vibroimpact.stability.fixed_points import (
     VALUE,
@@ -186,7 +186,7 @@ class Branch:
         if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
         near = there.orbit.section.family.equation(value + left)
-        damped = is_damped(there.orbit.rig.system)
+        damped = engine_system(there.orbit.rig.system).has_dashpot
         beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
         limit = "damping may limit it" if damped else f"{times:.1g} times the first orbit"
         return f"the motion grows {beyond} near {near} ({limit})"
@@ -380,13 +380,6 @@ class Branch:
             if found is not None and found.contacts == last.contacts:
                 return found, length
         return last, good
-
-
-def is_damped(system: Oscillator | Assembly) -> bool:
-    """Whether a motion without contacts loses energy to a dashpot."""
-    if isinstance(system, Assembly):
-        return bool(system.damping_matrix.any())
-    return bool(system.isolator.damping > 0.0)
 
 
 def neutral(here: Station) -> bool:

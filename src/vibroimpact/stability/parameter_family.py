@@ -15,15 +15,13 @@ from numpy.typing import NDArray
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY
-from vibroimpact.model import Assembly, Oscillator, Repeated
+from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import written_for
-from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.engine_input import system_vector
-from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.engine_system import EngineSystem, engine_system, system_vector
 
 _Array = NDArray[np.float64]
 
@@ -59,9 +57,9 @@ class Family(NamedTuple):
         return self.rig.oscillator
 
     @property
-    def layout(self) -> SectionStates:
+    def layout(self) -> EngineSystem:
         """How states stand in vectors and points."""
-        return SectionStates(self.rig.system)
+        return engine_system(self.rig.system)
 
     @property
     def excitation(self) -> Repeated:
@@ -104,7 +102,7 @@ class Family(NamedTuple):
     @property
     def of_several_masses(self) -> bool:
         """Whether what vibrates is an assembly."""
-        return isinstance(self.rig.system, Assembly)
+        return self.rig.system.by_mass
 
     @property
     def forcing(self) -> tuple[int, int]:
@@ -179,15 +177,14 @@ def family(rig: Rig, name: str) -> Family:
         If there is no such parameter, or the rig has none.
     """
     as_periodic(rig.shaking, "shaking")  # refuses a record
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
+    engine_system(rig.system).check_size()
     varied = parameter(name, rig)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)
     there = system_vector(varied.vary(rig, value + step))
     uneven = False
-    if isinstance(rig.system, Assembly):
+    if rig.system.by_mass:
         uneven = bool(here[layout.SYMMETRIC] != there[layout.SYMMETRIC])
         for vector in (here, there):
             _make_plain(vector, uneven)
@@ -221,7 +218,7 @@ def _vector(made: Family, value: float) -> _Array:
 def numbers(rig: Rig, uneven: bool) -> _Array:
     """Return the engine's vector, of an assembly that is its own mirror image by chance or not."""
     vector = system_vector(rig)
-    if isinstance(rig.system, Assembly) and uneven:
+    if rig.system.by_mass and uneven:
         make_uneven(vector)
     return vector
 

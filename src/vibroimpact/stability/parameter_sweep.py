@@ -14,16 +14,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
 from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.assembly_rows import measured_variables
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.prepared_rig import prepare
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.nearest_state import nearest_state, random_state
 from vibroimpact.stability.settled_motion import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
@@ -51,8 +47,7 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
     varied.read(rig)  # refuses what the rig does not have
     found = [varied.vary(rig, float(value)) for value in values]
     for one in found:
-        if isinstance(one.system, Oscillator):
-            check_bounded(one)
+        engine_system(one.system).check_bounded(one)
         shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
             field = field_of(varied.name)
@@ -107,9 +102,7 @@ def stepped(
 def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     engine = prepare(rig)
     row, reached = engine.dwell(state, settling)
-    status = Status(int(row.status))
-    if isinstance(rig.system, Oscillator):
-        status = Status(int(judged(rig.system, row.status, row.peak_displacement)))
+    status = Status(int(engine.states.judged(row.status, row.peak_displacement)))
     found = Settled(engine, reached, int(row.period), int(row.cycles), status)
     return Held(found, row)
 
@@ -121,7 +114,7 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
     shakes it slowly.
     """
     sizes = [_size(one) for one in met if one.found.status in _SOUND]
-    gaps = [law.gap for rig in every for law in SectionStates(rig.system).laws]
+    gaps = [law.gap for rig in every for law in rig.system.stop_laws.values()]
     size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)
     omega = float(np.median([rig.periodic.angular_frequency for rig in every]))
     generator = np.random.default_rng(seed)
@@ -130,5 +123,5 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
 
 def _size(held: Held) -> float:
     """Return the largest displacement of all masses (m)."""
-    measured = measured_variables(held.found.rig.system, held.measured.array, ())
+    measured = held.found.states.measured(held.measured.array, ())
     return float(np.max(measured["peak_displacement"][1]))

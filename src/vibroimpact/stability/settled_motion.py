@@ -7,15 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, AssemblyState, Oscillator, Repeated, State
+from vibroimpact.model import AssemblyState, Oscillator, Repeated, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
-from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 from vibroimpact.tasks.threads import Progress
 
@@ -41,7 +38,7 @@ class Settled(NamedTuple):
         return self.engine.rig
 
     @property
-    def states(self) -> SectionStates:
+    def states(self) -> EngineSystem:
         """How states stand in vectors."""
         return self.engine.states
 
@@ -58,12 +55,7 @@ class Settled(NamedTuple):
     @property
     def symmetric(self) -> bool:
         """Whether its mirror image, half a cycle later, is a motion as well."""
-        system = self.rig.system
-        if isinstance(system, Assembly):
-            alike = self.engine.vector[layout.SYMMETRIC] == 1.0
-        else:
-            alike = system.symmetric
-        return bool(alike and self.excitation.half_wave)
+        return self.states.is_symmetric(self.engine.vector) and self.excitation.half_wave
 
 
 def approach(
@@ -83,21 +75,19 @@ def approach(
     InputError
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
-    if isinstance(rig.system, Oscillator):
-        check_bounded(rig)
+    engine_system(rig.system).check_bounded(rig)
     if not isinstance(start, np.ndarray):
         if start.phase is not None:
             rig = rig.with_parts(rig.system, rig.periodic.replace(phase=start.phase))
-        start = SectionStates(rig.system).vector_of(start)
+        start = engine_system(rig.system).vector_of(start)
     engine = prepare(rig)
-    several = isinstance(rig.system, Assembly)
     row, reached = engine.dwell(start, Settling(tolerance, max_cycles, 1, max_events), progress)
     return Settled(
         engine,
         reached if np.isfinite(reached).all() else start,
         int(row.period),
         int(row.cycles),
-        Status(int(row.status if several else judged(rig.oscillator, row.status, np.nan))),
+        Status(int(engine.states.judged(row.status, np.nan))),
     )
 
 
@@ -137,8 +127,7 @@ def reach_at_rest(rig: Rig) -> float:
     """
     system, excitation = rig.system, rig.periodic
     omega = excitation.angular_frequency
-    mass = system.mass if isinstance(system, Oscillator) else float(system.mass_matrix.max())
-    peak = float(np.sum(excitation.acceleration(mass, omega)))
+    peak = float(np.sum(excitation.acceleration(engine_system(system).largest_mass, omega)))
     return peak / (system.angular_frequency or omega) ** 2
 
 

@@ -16,7 +16,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import extremes, harmonics
-from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
+from vibroimpact.response.engine_input import state_from
+from vibroimpact.response.engine_system import engine_rig, system_vector
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
-from vibroimpact.model import Assembly, AssemblyState, State
+from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
@@ -26,17 +26,16 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import exciting_excursion
-from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.assembly_rows import measured_over, measured_variables
+from vibroimpact.response.assembly_rows import measured_over
 from vibroimpact.response.contacts import contact_log
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import Origin, phases
 from vibroimpact.response.plausibility import doubt_stops
-from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.initial_orbit import first_orbit
-from vibroimpact.stability.motion_exponents import exponents, judge_orbit, judge_wandering
+from vibroimpact.stability.motion_exponents import judge_orbit, judge_wandering
 from vibroimpact.stability.motion_type import Judgement
 from vibroimpact.stability.parameter_family import family
 from vibroimpact.stability.settled_motion import (
@@ -136,10 +135,9 @@ def steady(
         If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
-    if isinstance(rig.system, Assembly):
-        check_size(rig.system)
+    engine_system(rig.system).check_size()
     check_samples(window, samples, "window")
-    state = SectionStates(rig.system).read(start)
+    state = engine_system(rig.system).read(start)
     found = approach(rig, state, tolerance, max_cycles, max_events, progress)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
@@ -251,7 +249,7 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
 
 def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, the contact log, the exact extremes, and quantities derived from them."""
-    if isinstance(found.states.system, Assembly):
+    if found.states.system.by_mass:
         return _measured_by_mass(data, found, scalars)
     periodic = scalars["period"] > 0
     origin = Origin(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
@@ -280,11 +278,9 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
 
 def _measured_by_mass(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, and the exact extremes, forces and impacts, by mass and stop."""
-    assembly = found.states.system
-    assert isinstance(assembly, Assembly)
     cycles = max(round(float(data["cycle"].values[-1])), 1)
     row = measured_over(found.engine, found.state, cycles)
-    variables = measured_variables(assembly, row, ())
+    variables = found.states.measured(row, ())
     ordered = int(data["simultaneous_impacts"])
     data = data.assign({**variables, **scalars, "simultaneous_impacts": ordered})
     data.attrs["created_by"] = "vibroimpact.steady"
@@ -302,7 +298,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
         told = found.status.advice
         raise InputError(f"excitation: the motion could not be simulated: {told}")
     warn_of_result(f"steady stopped in cycle {found.cycles}: {found.status.advice}")
-    nothing = ("exponent", np.full(exponents(found.states), np.nan))
+    nothing = ("exponent", np.full(2 * found.states.masses, np.nan))
     scalars: dict[str, Any] = {
         "motion": "undecided",
         "period": 0,

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import rig_parameters, system_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Oscillator, Repeated
+from vibroimpact.model import Repeated
 from vibroimpact.model.parameters import Parameter, parameter, set_values
 from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.system import System
 from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.uncertainty.distributions import (
     Distribution,
@@ -110,7 +111,7 @@ def uncertain(rig: RigOrSystem, distributions: Any) -> Uncertain:
     InputError
         If a distribution is invalid, or the rig has no such parameter.
     """
-    alone = isinstance(rig, Oscillator | Assembly)
+    alone = isinstance(rig, System)
     base = one_system(rig)
     return _read(base, None if alone else base.periodic, distributions)
 

@@ -14,7 +14,8 @@ from vibroimpact.engine.phases import measure_motion
 from vibroimpact.model import equilibrium
 from vibroimpact.response.assembly_rig import assembly_numbers
 from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 
 SINE = vi.Harmonic("2.5 m/s2", 0.9, 0.4)
 

@@ -25,7 +25,7 @@ from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
 from vibroimpact.engine.state import FLIGHT
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 FREQUENCY, PHASE = 0.2, 0.7
 

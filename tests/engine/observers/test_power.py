@@ -24,7 +24,8 @@ from vibroimpact.engine.opening import open_entry
 from vibroimpact.engine.state import state_buffer
 from vibroimpact.model import equilibrium
 from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 
 
 @kernel

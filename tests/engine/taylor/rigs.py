@@ -13,7 +13,8 @@ from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.one_mass import record
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.engine_system import engine_rig
 
 ISOLATORS = {
     "linear": vi.Isolator(1.0, 0.2),

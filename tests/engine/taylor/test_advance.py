@@ -39,7 +39,7 @@ def test_linear_rigs_as_by_the_tables(motion: Motion) -> None:
     speeds = [abs(start[V]), abs(exact[V]), shaken.amplitude / shaken.angular_frequency]
     size = max(abs(start[U]), abs(exact[U]), max(speeds) / unit)
     # A stiff bumper makes a velocity of each rounding of the displacement.
-    bumpers = [stop for stop in rig.stops if isinstance(stop, vi.Bumper)]
+    bumpers = [stop for stop in rig.stops.values() if isinstance(stop, vi.Bumper)]
     dashpots = [one.damping / rig.mass for one in bumpers]
     springs = [math.sqrt(one.stiffness / rig.mass) for one in bumpers]
     rate = max([unit, *dashpots, *springs])

@@ -14,7 +14,7 @@ from vibroimpact.engine.motion import FACES, ISOLATOR, U, V
 from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
 from vibroimpact.engine.state import MODE
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 ORDER = [U, V, FACES, FACES + 1, ISOLATOR]
 SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])

@@ -15,7 +15,7 @@ from vibroimpact.engine.motion import LEFT, RIGHT, Motion
 from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.taylor.mode_forces import isolator_force, stuck
 from vibroimpact.engine.taylor.plan import build
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 
 def plan_of(isolator: str, stop: str | None = None) -> np.ndarray:

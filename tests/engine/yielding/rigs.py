@@ -11,7 +11,7 @@ from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.one_mass import record
 from vibroimpact.engine.state import ONE_MASS
-from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.engine_system import engine_rig
 
 CYCLES = 8
 

@@ -42,7 +42,7 @@ def plane(state: PageState) -> Plane:
     rig = state.oscillator
     scaled = to_dimensionless(state.rig)
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
-    if not stops or not all(stop.spring_and_dashpot for stop in rig.stops):
+    if not stops or not all(stop.spring_and_dashpot for stop in rig.stops.values()):
         raise InputError(
             "map: the map requires at least one stop, and all stops must be Kelvin-Voigt bumpers; "
             "change the law of the stops to kelvin-voigt"

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,13 +25,17 @@ from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
 from vibroimpact.model.assembly.numbers import AssemblyNumbers, made_of
 from vibroimpact.model.frozen_mapping import FrozenMapping
-from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import check_no_units
+from vibroimpact.model.stops import Stop
+from vibroimpact.model.system import PartNames, System, Units
 from vibroimpact.model.units import pretty
 from vibroimpact.model.unknown_keys import listed, unknown_key
-from vibroimpact.model.validation import Accepts, Model, takes_fields
+from vibroimpact.model.validation import Accepts, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
+
+if TYPE_CHECKING:
+    from vibroimpact.model.excitation import Repeated
 
 _MASS = Accepts(MASS, above=0.0, meaning="mass")
 _FORCE = Accepts(FORCE, meaning="constant force")
@@ -40,7 +44,7 @@ _ZERO = 1e-14
 _MATRIX_KEYS = ("names", "mass", "damping", "stiffness", "influence")
 
 
-class Assembly(Model):
+class Assembly(System):
     """Several masses on a line, with links and stops between them and the base.
 
     The masses have names. The positive direction is to the right. The displacement of a mass is
@@ -98,6 +102,8 @@ class Assembly(Model):
     """
 
     model_config = ConfigDict(ignored_types=(cached_property,))
+    word = "assembly"
+    by_mass = True
     _quiet: ClassVar[Mapping[str, Any]] = {
         "masses": {},
         "links": {},
@@ -292,6 +298,22 @@ class Assembly(Model):
         return tuple(self.masses) if self.matrices is None else self.matrices.names
 
     @property
+    def stop_laws(self) -> dict[str, Stop]:
+        """The laws of the stops, by the names of the stops."""
+        return {name: one.stop for name, one in self.stops.items()}
+
+    @property
+    def counted_stops(self) -> tuple[str, ...]:
+        """Names of the stops."""
+        return tuple(self.stops)
+
+    @property
+    def part_names(self) -> PartNames:
+        """Names of the masses, links and stops, by the dims of datasets."""
+        parts = {"mass": self.names, "link": self.links, "stop": self.stops}
+        return {dim: np.array(list(names), dtype=np.str_) for dim, names in parts.items()}
+
+    @property
     def assumptions(self) -> tuple[str, ...]:
         """What was assumed to read the links, one line each, which is in the notes of results."""
         return tuple(link.assumption for link in self.links.values() if link.assumption)
@@ -464,6 +486,27 @@ class Assembly(Model):
             found += value * np.outer(w, w)
         return found
 
+    def _acted_on_by(self, shaking: Repeated) -> Repeated:
+        """Return an excitation with the mass on which a force acts.
+
+        Raises
+        ------
+        InputError
+            If a force on one of several masses does not state which, or if there is no such mass.
+        """
+        if shaking.moves_base:
+            return shaking
+        if shaking.on is not None:
+            check_known(shaking.on, self.names, "mass", "shaking.on")
+            return shaking
+        if len(self.names) > 1:
+            size = pretty(shaking.amplitude, shaking.quantity)
+            raise InputError(
+                f"shaking: {size} acts on one of {len(self.names)} masses; state which, such as "
+                f'on = "{self.names[-1]}"'
+            )
+        return shaking.replace(on=self.names[0])
+
     def without_stops(self) -> Self:
         """Return a copy without stops."""
         return self.replace(stops={})
@@ -497,6 +540,9 @@ class Assembly(Model):
         from vibroimpact.model.assembly.drawing import as_svg, drawing
 
         return as_svg(drawing(self))
+
+    def _picture(self) -> str:
+        return self.picture()
 
     def _repr_html_(self) -> str:
         with written_for(self):

@@ -13,10 +13,10 @@ from vibroimpact.model.assembly.damping import AnyDamping, ModalDamping, Rayleig
 from vibroimpact.model.assembly.link import Link
 from vibroimpact.model.assembly.names import GROUND, check_part_name
 from vibroimpact.model.isolators import Isolator
-from vibroimpact.model.oscillator import Units
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import STIFFNESS
 from vibroimpact.model.size_checks import doubt_damping_ratio
+from vibroimpact.model.system import Units
 from vibroimpact.model.validation import Accepts
 
 _STIFFNESS = Accepts(STIFFNESS, above=0.0)
