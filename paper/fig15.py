@@ -38,7 +38,7 @@ def draw(study: PublishedStudy) -> Figure:
     axes = figure.subplots(2, 2, sharex="col", width_ratios=[2.2, 1.0])
     near = data.sel(frequency=slice(*BRANCH))
     for column, part in ((0, data), (1, near)):
-        resonance_curves(part, axes[:, column], found=found, physical=False)
+        resonance_curves(part, axes[:, column], curve_features=found, physical=False)
         for ax, excursion in zip(axes[:, column], _EXCURSIONS.values(), strict=True):
             _unstable(ax, data, branch, excursion)
             _unsettled(ax, found)

@@ -65,8 +65,8 @@ def warn_of_input(what: str, notes: Iterable[str]) -> None:
     notes
         Assumptions and doubts about the input. Without notes, no warning is issued.
     """
-    if told := "; ".join(notes):
-        warnings.warn(f"{what}: {told}", InputWarning, stacklevel=outside())
+    if text := "; ".join(notes):
+        warnings.warn(f"{what}: {text}", InputWarning, stacklevel=outside())
 
 
 def warn_of_result(message: str) -> None:

@@ -123,13 +123,13 @@ class Program(NamedTuple):
 
     def names(self) -> list[str]:
         """Return the symbols without the digits behind some of them."""
-        found: list[str] = []
+        symbols: list[str] = []
         digit = False
         for one in self.symbols:
             if not digit:
-                found.append(SYMBOLS[one])
+                symbols.append(SYMBOLS[one])
             digit = not digit and SYMBOLS[one] in WITH_DIGIT
-        return found
+        return symbols
 
 
 def pack(program: Program, stiffness: float) -> tuple[float, ...]:

@@ -104,7 +104,7 @@ class TestPrimaryResonance:
     def test_a_part_of_a_sweep_shows_its_own_jumps(self, low, high, kept):
         data = swept("B2-G1-A3", parameters="identified")
         part = data.sel(frequency=slice(low, high))
-        for ax in resonance_curves(part, found=features(data)):
+        for ax in resonance_curves(part, curve_features=features(data)):
             assert len(arrows(ax)) == kept
 
     def test_no_line_across_a_jump(self):

@@ -124,10 +124,10 @@ def test_what_cannot_be_drawn_is_refused():
         scenario_map(made(), border=xr.Dataset())
     with pytest.raises(vi.InputError, match="name: 'nothing' is unknown; use chaotic_count"):
         feature_map(made(), "nothing")
-    with pytest.raises(vi.InputError, match="found: 'B5-G1-A1' is not a laboratory test"):
+    with pytest.raises(vi.InputError, match="scenarios: 'B5-G1-A1' is not a laboratory test"):
         scenario_cases({"B5-G1-A1": "S2"})
     with pytest.raises(
-        vi.InputError, match=r"found\[B1-G1-A1\]: 'S9' is not a scenario; use one of S0"
+        vi.InputError, match=r"scenarios\[B1-G1-A1\]: 'S9' is not a scenario; use one of S0"
     ):
         scenario_cases({"B1-G1-A1": "S9"})
 

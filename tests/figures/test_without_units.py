@@ -38,7 +38,7 @@ def legends(drawn):
 
 
 def test_resonance_curves_over_omega(swept):
-    drawn = figures.resonance_curves(swept, found=features(swept), physical=False)
+    drawn = figures.resonance_curves(swept, curve_features=features(swept), physical=False)
     assert drawn[1].get_xlabel() == "excitation frequency $\\omega$"
     assert not any("(" in text for text in labels(drawn))
     low, high = drawn[0].get_xlim()

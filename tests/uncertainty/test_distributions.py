@@ -8,7 +8,7 @@ from scipy import stats
 
 import vibroimpact as vi
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.uncertainty.distributions import check_values, distribution, told
+from vibroimpact.uncertainty.distributions import check_values, distribution, text_of
 
 GAP = PARAMETERS["gap"]
 SHARES = np.array([0.01, 0.3, 0.5, 0.99])
@@ -36,8 +36,8 @@ def test_in_words(text, known):
 def test_one_of_scipy_stays():
     given = stats.beta(2.0, b=3.0, scale=1e-2)
     assert distribution(given, GAP, lambda: 8e-3, "x") is given
-    assert told(given) == "beta(2, b=3, scale=0.01)"
-    assert told("normal:5%") == "normal:5%"
+    assert text_of(given) == "beta(2, b=3, scale=0.01)"
+    assert text_of("normal:5%") == "normal:5%"
 
 
 @pytest.mark.parametrize(

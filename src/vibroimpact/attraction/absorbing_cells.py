@@ -99,10 +99,10 @@ def _images(stage: Stage, cells: Cells, chosen: _Mask, threads: Workers) -> _Mas
     u, v = np.broadcast_arrays(u, v)
     points = np.zeros((u.size, 5))
     points[:, 0], points[:, 1] = u.ravel(), v.ravel()
-    found, known = images(stage, points, 1, threads)
+    image_points, known = images(stage, points, 1, threads)
     if not known.all():
         return None
-    image = found[:, :2].reshape(len(rows), _SAMPLES, _SAMPLES, 2)
+    image = image_points[:, :2].reshape(len(rows), _SAMPLES, _SAMPLES, 2)
     mask = np.zeros((SIDE, SIDE), dtype=bool)
     for one, other in (
         (image[:, 1:], image[:, :-1]),

@@ -104,8 +104,8 @@ def _ellipsoid(
     def mapped(offsets: _Array) -> tuple[_Array, bool]:
         begun = np.tile(point, (len(offsets), 1))
         begun[:, kept] += offsets * unit
-        found, known = images(stage, begun, period)
-        return (found[:, kept] - point[kept]) / unit, bool(known.all())
+        image_points, known = images(stage, begun, period)
+        return (image_points[:, kept] - point[kept]) / unit, bool(known.all())
 
     eye = _DIFFERENCE * np.eye(len(kept))
     ahead, there = mapped(np.vstack([eye, -eye]))

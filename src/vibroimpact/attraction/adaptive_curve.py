@@ -141,5 +141,5 @@ def _bows(steps: _Array, gaps: _Array) -> _Array:
     cross = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
     angles = np.abs(np.arctan2(cross, (behind * ahead).sum(axis=1)))
     padded = np.concatenate([[0.0], np.nan_to_num(angles), [0.0]])
-    found: _Array = gaps * np.maximum(padded[1:], padded[:-1]) / 8.0
-    return found
+    bows: _Array = gaps * np.maximum(padded[1:], padded[:-1]) / 8.0
+    return bows

@@ -71,7 +71,7 @@ class Coordinate(NamedTuple):
 class _End(NamedTuple):
     """Where a motion went."""
 
-    found: Settled
+    motion: Settled
     visited: _Array
     """Displacements of the first mass at the section, sorted; of a motion that does not repeat."""
 
@@ -100,17 +100,17 @@ def read_plane(plane: object, assembly: Assembly) -> tuple[Coordinate, Coordinat
         "a dict of two coordinates with their ranges, such as "
         f'{{"displacement.{first}": (-0.02, 0.02), "velocity.{first}": (-1.0, 1.0)}}'
     )
-    given = check_mapping(plane, "plane", what)
-    if len(given) != 2:
-        raise InputError(f"plane: {', '.join(map(shown, given)) or 'empty'}; pass {what}")
-    found = []
-    for name, span in given.items():
+    spans = check_mapping(plane, "plane", what)
+    if len(spans) != 2:
+        raise InputError(f"plane: {', '.join(map(shown, spans)) or 'empty'}; pass {what}")
+    axes = []
+    for name, span in spans.items():
         if name not in of:
             raise InputError(f"plane: {unknown(name, of)}")
         field = f"plane[{name!r}]"
         low, high = read_span(span, of[name], field)
-        found.append(Coordinate(name, low, high, of[name]))
-    return found[0], found[1]
+        axes.append(Coordinate(name, low, high, of[name]))
+    return axes[0], axes[1]
 
 
 def assembly_basins(
@@ -155,7 +155,7 @@ def assembly_basins(
         owner = np.full(len(chosen), NOWHERE, dtype=np.int8)
         cycles = np.full(len(chosen), -1, dtype=np.int32)
         for k, end in zip(starts, ends, strict=True):
-            owner[k], cycles[k] = search.number(end), end.found.cycles
+            owner[k], cycles[k] = search.number(end), end.motion.cycles
         return owner, cycles
 
     return _dataset(search, plane, axes, plan, label_nodes(plan, label))
@@ -205,33 +205,35 @@ class _Search:
         if status is Status.NOT_SETTLED or (status is Status.DONE and not int(row.period)):
             status, rows = self.engine.sections(reached.copy(), _VISITS, self.max_events)
             visited = np.sort(rows[:, lyapunov.SECTION])
-        found = Settled(self.engine, reached, int(row.period), int(row.cycles), status)
-        return _End(found, visited)
+        motion = Settled(self.engine, reached, int(row.period), int(row.cycles), status)
+        return _End(motion, visited)
 
     def number(self, end: _End) -> int:
         """Return the number of the motion at which one ends, which is added if it is new."""
-        if end.found.status is not Status.DONE:
+        if end.motion.status is not Status.DONE:
             return UNDECIDED
         for number, one in enumerate(self.known):
-            if one.end.found.period == end.found.period and self._is(one.end, end):
+            if one.end.motion.period == end.motion.period and self._is(one.end, end):
                 return number
-        state = end.found.state.copy()
-        found = approach(self.rig, state, max_cycles=self.max_cycles, max_events=self.max_events)
-        if found.status not in (Status.DONE, Status.NOT_SETTLED):
+        state = end.motion.state.copy()
+        steady_motion = approach(
+            self.rig, state, max_cycles=self.max_cycles, max_events=self.max_events
+        )
+        if steady_motion.status not in (Status.DONE, Status.NOT_SETTLED):
             return UNDECIDED
-        motion = described(found, self.max_events)
-        check_loses(motion, found, "rig: a motion", "add damping to the links")
+        motion = described(steady_motion, self.max_events)
+        check_loses(motion, steady_motion, "rig: a motion", "add damping to the links")
         if len(self.known) == MOST:
             raise InputError(
                 f"rig: more than {MOST} motions were found, so perhaps every state has its own "
                 f"motion; add damping, narrow the plane, or raise {MORE_CYCLES}"
             )
-        self.known.append(_Known(_End(found, end.visited), motion))
+        self.known.append(_Known(_End(steady_motion, end.visited), motion))
         return len(self.known) - 1
 
     def _is(self, one: _End, other: _End) -> bool:
-        if other.found.period:
-            return same(one.found, other.found, self.max_events)
+        if other.motion.period:
+            return same(one.motion, other.motion, self.max_events)
         return distance(one.visited, other.visited) <= ALIKE
 
 

@@ -40,10 +40,10 @@ def ranked(motions: Sequence[xr.Dataset]) -> list[int]:
 
 def renamed(labels: NDArray[np.int16], order: Sequence[int]) -> NDArray[np.int16]:
     """Return labels in which a motion has its place in an order as its number."""
-    found = labels.copy()
+    new_labels = labels.copy()
     for new, old in enumerate(order):
-        found[labels == old] = new
-    return found
+        new_labels[labels == old] = new
+    return new_labels
 
 
 def basin_variables(
@@ -105,7 +105,7 @@ def kinds(motions: Sequence[xr.Dataset]) -> dict[str, Any]:
 def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, Any]:
     """What a dataset says of motions, in this order."""
     along = ("attractor",)
-    shown = [one.points[: one.found.period or POINTS] for one in known]
+    shown = [one.points[: one.settled_motion.period or POINTS] for one in known]
     points = np.vstack([*shown, np.empty((0, 5))])
     return {
         **kinds([one.motion for one in known]),
@@ -146,13 +146,13 @@ def shares(labels: NDArray[np.integer[Any]], motions: int, drawn: int) -> dict[s
 
 def _mirror_images(known: Sequence[Attractor]) -> NDArray[np.int64]:
     """Which motion is each one's mirror image; -1 where that is not among them."""
-    found = np.full(len(known), -1, dtype=np.int64)
+    partners = np.full(len(known), -1, dtype=np.int64)
     for i, one in enumerate(known):
-        if not one.found.symmetric:
+        if not one.settled_motion.symmetric:
             continue
         for j, other in enumerate(known):
-            alike = one.found.period == other.found.period
-            if alike and mirrors(one.found, other.found, 10_000):
-                found[i] = j
+            alike = one.settled_motion.period == other.settled_motion.period
+            if alike and mirrors(one.settled_motion, other.settled_motion, 10_000):
+                partners[i] = j
                 break
-    return found
+    return partners

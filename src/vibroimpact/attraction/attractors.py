@@ -31,7 +31,7 @@ _LOSES = 1e-9
 class Attractor(NamedTuple):
     """A steady motion that states of its own lead to."""
 
-    found: Settled
+    settled_motion: Settled
     motion: xr.Dataset
     """What `steady` says of it."""
     points: _Array
@@ -48,10 +48,12 @@ class Attractor(NamedTuple):
     @property
     def size(self) -> float:
         """As a displacement (m)."""
-        return reach(self.found, self.found.state)
+        return reach(self.settled_motion, self.settled_motion.state)
 
 
-def attractor(stage: Stage, state: _Array, found: Settled, owner: int) -> Attractor | Status:
+def attractor(
+    stage: Stage, state: _Array, steady_motion: Settled, owner: int
+) -> Attractor | Status:
     """Describe what a state of the engine settles on; why it is given up if that cannot be.
 
     Raises
@@ -60,33 +62,33 @@ def attractor(stage: Stage, state: _Array, found: Settled, owner: int) -> Attrac
         If nothing dies out there, so that there is no end.
     """
     max_events = stage.max_events
-    motion = described(found, max_events)
+    motion = described(steady_motion, max_events)
     period = int(motion["period"])
     if str(motion["motion"].values) == "undecided" and not math.isfinite(
         float(motion["effective_damping"])
     ):
         return Status.TOO_MANY_EVENTS
     begin = f"oscillator: the motion from {state[2]:.6g} m and {state[3]:.6g} m/s"
-    check_loses(motion, found, begin, "give the isolator damping")
-    if period and not found.period:  # it settles slowly, and was found by Newton's method
+    check_loses(motion, steady_motion, begin, "give the isolator damping")
+    if period and not steady_motion.period:  # it settles slowly, and was found by Newton's method
         there = engine_state(stage.oscillator, as_state(motion["final_state"]))
-        found = found._replace(state=there, period=period, status=Status.DONE)
-    points = _points(found, stage)
+        steady_motion = steady_motion._replace(state=there, period=period, status=Status.DONE)
+    points = _points(steady_motion, stage)
     if points is None:
         return Status.TOO_MANY_EVENTS
-    size = reach(found, found.state)
-    rows = ellipsoids(stage, points if found.period else points[:0], size, owner)
-    return Attractor(found, motion, points, rows)
+    size = reach(steady_motion, steady_motion.state)
+    rows = ellipsoids(stage, points if steady_motion.period else points[:0], size, owner)
+    return Attractor(steady_motion, motion, points, rows)
 
 
-def described(found: Settled, max_events: int) -> xr.Dataset:
+def described(steady_motion: Settled, max_events: int) -> xr.Dataset:
     """Return what `steady` says of a motion."""
-    return describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
+    return describe_motion(steady_motion, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
 
 
-def check_loses(motion: xr.Dataset, found: Settled, which: str, remedy: str) -> None:
+def check_loses(motion: xr.Dataset, steady_motion: Settled, which: str, remedy: str) -> None:
     """Raise an error if a motion loses no energy."""
-    lost = float(motion["effective_damping"]) / found.excitation.frequency
+    lost = float(motion["effective_damping"]) / steady_motion.excitation.frequency
     if abs(lost) < _LOSES:
         raise InputError(
             f"{which} loses no energy, so neighbouring states do not lead to a common motion and "
@@ -94,20 +96,20 @@ def check_loses(motion: xr.Dataset, found: Settled, which: str, remedy: str) -> 
         )
 
 
-def _points(found: Settled, stage: Stage) -> _Array | None:
+def _points(steady_motion: Settled, stage: Stage) -> _Array | None:
     """Where it is at the section; None if a limit is met."""
-    if not found.period:
-        state = found.state.copy()
+    if not steady_motion.period:
+        state = steady_motion.state.copy()
         status, rows = prepare(stage.rig).sections(state, _VISITS, stage.max_events)
         if status is not Status.DONE:
             return None
         points = rows[:, lyapunov.SECTION : lyapunov.SECTION + 5].copy()
         points[:, 3] *= -1.0
         return points
-    passed, state = [], found.state
-    for _ in range(found.period):
+    passed, state = [], steady_motion.state
+    for _ in range(steady_motion.period):
         passed.append(state[PLACES])
-        status, state = later(found, state, 1.0, stage.max_events)
+        status, state = later(steady_motion, state, 1.0, stage.max_events)
         if status is not Status.DONE:
             return None
     return np.array(passed)

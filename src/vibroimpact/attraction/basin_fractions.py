@@ -23,10 +23,10 @@ def interval(
     -------
     low, high
     """
-    found = np.asarray(hits, dtype=float)
+    counts = np.asarray(hits, dtype=float)
     tail = 0.5 * (1.0 - confidence)
-    none, all_ = found <= 0.0, found >= total
-    inside_low, inside_high = np.where(none, 1.0, found), np.where(all_, total - 1.0, found)
+    none, all_ = counts <= 0.0, counts >= total
+    inside_low, inside_high = np.where(none, 1.0, counts), np.where(all_, total - 1.0, counts)
     low = np.where(none, 0.0, scipy.special.betaincinv(inside_low, total - inside_low + 1.0, tail))
     high = np.where(
         all_, 1.0, scipy.special.betaincinv(inside_high + 1.0, total - inside_high, 1.0 - tail)

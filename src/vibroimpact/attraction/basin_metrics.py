@@ -121,14 +121,14 @@ def border_distances(labels: _Labels, x: _Array, y: _Array, points: list[_Array]
     """
     rows, columns = np.nonzero(border(labels))
     places, owners = np.column_stack([x[columns], y[rows]]), labels[rows, columns]
-    found = np.full(len(points), np.nan)
+    distances = np.full(len(points), np.nan)
     for label, mine in enumerate(points):
         low, high = (x[0], y[0]), (x[-1], y[-1])
         inside = mine[((mine >= low) & (mine <= high)).all(axis=1)]
         if not len(inside):
             continue
         others = places[(owners != label) & (owners >= 0)]
-        found[label] = (
+        distances[label] = (
             scipy.spatial.KDTree(others).query(inside)[0].min() if len(others) else np.inf
         )
-    return found
+    return distances

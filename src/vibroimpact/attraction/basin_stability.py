@@ -121,9 +121,9 @@ def basin_stability(
         If a value is invalid, or if the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
-    given = read_values(vary, rig, most=1, longest=MOST_VALUES)
-    varied = parameter(given[0].name, rig) if given else None
-    values = given[0].values.tolist() if given else [0.0]
+    axes = read_values(vary, rig, most=1, longest=MOST_VALUES)
+    varied = parameter(axes[0].name, rig) if axes else None
+    values = axes[0].values.tolist() if axes else [0.0]
     if rig.frequency is None and varied and varied.name == "frequency":
         rig = rig.at(values[0])
     rig.check_frequency()
@@ -139,17 +139,17 @@ def basin_stability(
         every = [window(search) for search in searches]
         wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)
     ranges = wide, fast
-    every_found: list[_ReachedMotions] = []
+    reached_motions: list[_ReachedMotions] = []
     numbers: list[list[int]] = []
     for i, search in enumerate(searches):
         points = _drawn(search.stage, ranges, states, seed)
-        before = every_found[-1].known if every_found else []
+        before = reached_motions[-1].known if reached_motions else []
         leads = search.label(_seeds(before)).owner
-        found = search.label(points)
+        labels = search.label(points)
         order = [
             n
             for n in ranked([a.motion for a in search.known])
-            if (found.owner == n).any() or (leads == n).any()
+            if (labels.owner == n).any() or (leads == n).any()
         ]
         known = [search.known[n] for n in order]
         places = [_places(one, ranges) for one in known]
@@ -163,11 +163,11 @@ def basin_stability(
         )
         free = 1 + max((n for some in numbers for n in some), default=-1)
         numbers.append(matched(former, places, going, free))
-        counts = np.array([(found.owner == n).sum() for n in order], dtype=np.int64)
-        every_found.append(_ReachedMotions(known, counts, int((found.owner < 0).sum())))
+        counts = np.array([(labels.owner == n).sum() for n in order], dtype=np.int64)
+        reached_motions.append(_ReachedMotions(known, counts, int((labels.owner < 0).sum())))
         if progress is not None:
             progress(i + 1, len(searches))
-    data = _dataset(every_found, numbers, states, varied, values)
+    data = _dataset(reached_motions, numbers, states, varied, values)
     return describe(
         data,
         "vibroimpact.basin_stability",
@@ -220,19 +220,19 @@ def _places(one: Attractor, ranges: Window) -> _Array:
 
 
 def _dataset(
-    found: list[_ReachedMotions],
+    reached_motions: list[_ReachedMotions],
     numbers: list[list[int]],
     drawn: int,
     varied: Parameter | None,
     values: list[float],
 ) -> xr.Dataset:
     total = 1 + max((n for some in numbers for n in some), default=-1)
-    shape = (len(found), total)
+    shape = (len(reached_motions), total)
     counts = np.zeros(shape, dtype=np.int64)
     motion = np.full(shape, "", dtype="<U14")
     period = np.zeros(shape, dtype=np.int64)
     sizes = {name: np.full(shape, np.nan) for name in _SIZES}
-    for i, (one, names) in enumerate(zip(found, numbers, strict=True)):
+    for i, (one, names) in enumerate(zip(reached_motions, numbers, strict=True)):
         for known, count, number in zip(one.known, one.counts, names, strict=True):
             counts[i, number] = count
             motion[i, number] = str(known.motion["motion"].values)
@@ -250,7 +250,10 @@ def _dataset(
             "motion": (dims, motion),
             "period": (dims, period),
             **{name: (dims, values_) for name, values_ in sizes.items()},
-            "given_up": (dims[0], np.array([one.given_up for one in found], dtype=np.int64)),
+            "given_up": (
+                dims[0],
+                np.array([one.given_up for one in reached_motions], dtype=np.int64),
+            ),
         },
         {"attractor": np.arange(total)},
     )

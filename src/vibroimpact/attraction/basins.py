@@ -169,8 +169,8 @@ def basins(
         data = assembly_basins(rig, chosen, start, plan, max_cycles, max_events, workers, progress)
         parameters = {**rig_parameters(rig), "refine": refine, "max_cycles": max_cycles}
         return describe(data, "vibroimpact.basins", parameters, varied=chosen)
-    for name, given in (("plane", plane), ("start", start)):
-        if given is not None:
+    for name, argument in (("plane", plane), ("start", start)):
+        if argument is not None:
             raise InputError(
                 f"{name}: only for an Assembly; remove it, and pass displacement and velocity"
             )
@@ -180,16 +180,16 @@ def basins(
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
     if wide is None or fast is None:
-        found = window(search)
-        wide, fast = wide or found[0], fast or found[1]
+        from_search = window(search)
+        wide, fast = wide or from_search[0], fast or from_search[1]
     ranges = wide, fast
     points = lattice(*ranges, plan.shape[::-1], others)
     low, high = walls(stage)
     outside = (points.displacement < low) | (points.displacement > high)
 
     def label(at: slice | NDArray[np.int64]) -> tuple[NDArray[np.int8], NDArray[np.int32]]:
-        found = search.label(points[at], progress)
-        return found.owner, found.cycles
+        from_search = search.label(points[at], progress)
+        return from_search.owner, from_search.cycles
 
     data = _dataset(search, ranges, plan, label_nodes(plan, label, outside))
     return describe(
@@ -205,21 +205,21 @@ def basins(
     )
 
 
-def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
-    pair = given if isinstance(given, tuple | list) else (given, given)
+def _nodes(nodes: int | tuple[int, int]) -> tuple[int, int]:
+    pair = nodes if isinstance(nodes, tuple | list) else (nodes, nodes)
     if len(pair) != 2:
         raise InputError(
-            f"nodes: {shown(given)}; pass one number for both axes, or a pair of numbers for "
+            f"nodes: {shown(nodes)}; pass one number for both axes, or a pair of numbers for "
             "displacement and velocity, such as (200, 100)"
         )
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
 
 
 def span_of(
-    given: Sequence[float | str] | None, quantity: Quantity, field: str
+    span: Sequence[float | str] | None, quantity: Quantity, field: str
 ) -> tuple[float, float] | None:
     """Read the lowest and the highest value of a window; return None without a window."""
-    return None if given is None else read_span(given, quantity, field)
+    return None if span is None else read_span(span, quantity, field)
 
 
 def _others(
@@ -229,8 +229,8 @@ def _others(
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
     stated = {} if deformation is None else {"deformation": deformation}
-    given = State.model_validate(stated).deformation
-    for side, value in given.items():
+    deformations = State.model_validate(stated).deformation
+    for side, value in deformations.items():
         stop = getattr(oscillator, side)
         if value and (stop is None or stop.spring_and_dashpot is None):
             raise InputError(
@@ -238,7 +238,7 @@ def _others(
                 f"deformation; pass 0, or leave {side} out"
             )
     memory = to_si(isolator, LENGTH, "isolator")
-    return np.array([*(given.get(side, 0.0) for side in SIDES), memory])
+    return np.array([*(deformations.get(side, 0.0) for side in SIDES), memory])
 
 
 def _dataset(

@@ -23,8 +23,8 @@ def crossings(one: _Array, other: _Array) -> _Array:
     near = middles.query_ball_tree(
         scipy.spatial.KDTree(there + 0.5 * its_way), reach * (1.0 + 1e-9)
     )
-    i = np.repeat(np.arange(len(begin)), [len(found) for found in near])
-    j = np.array([k for found in near for k in found], dtype=int)
+    i = np.repeat(np.arange(len(begin)), [len(neighbours) for neighbours in near])
+    j = np.array([k for neighbours in near for k in neighbours], dtype=int)
     if not len(i):
         return np.empty((0, 2))
     between = there[j] - begin[i]

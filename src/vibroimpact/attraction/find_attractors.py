@@ -103,7 +103,7 @@ class Search:
             left, states = left[1:], states[1:]
             ahead = _FIRST if len(self.known) > new else 2 * ahead
             done = total - len(left)
-            told = None if progress is None else lambda n, _, done=done: progress(done + n, total)
+            report = None if progress is None else lambda n, _, done=done: progress(done + n, total)
             followed = follow(
                 self.stage,
                 None,
@@ -111,7 +111,7 @@ class Search:
                 self.traps,
                 ahead,
                 self.threads,
-                told if ahead == _FIRST else None,
+                report if ahead == _FIRST else None,
             )
             states = followed.states
             owner[left], outcome[left] = followed.owner, followed.outcome
@@ -124,17 +124,17 @@ class Search:
     def _end_of(self, state: _Array) -> tuple[int, int]:
         """The motion that a state leads to, entered if it is new; -1 and why if there is none."""
         rig, max_events = self.stage
-        found = approach(rig, state, max_cycles=self.max_cycles, max_events=max_events)
-        if found.status not in (Status.DONE, Status.NOT_SETTLED):
-            return -1, int(found.status)
+        motion = approach(rig, state, max_cycles=self.max_cycles, max_events=max_events)
+        if motion.status not in (Status.DONE, Status.NOT_SETTLED):
+            return -1, int(motion.status)
         # A motion is described once: what repeats and is known already needs no more.
-        number = self._known_as(found) if found.period else -1
+        number = self._known_as(motion) if motion.period else -1
         if number >= 0:
             return number, int(Status.DONE)
-        met = attractor(self.stage, state, found, len(self.known))
+        met = attractor(self.stage, state, motion, len(self.known))
         if isinstance(met, Status):
             return -1, int(met)
-        number = self._known_as(met.found)
+        number = self._known_as(met.settled_motion)
         if number >= 0:
             return number, int(Status.DONE)
         if len(self.known) == MOST:
@@ -147,16 +147,18 @@ class Search:
         self._set_traps()
         return len(self.known) - 1, int(Status.DONE)
 
-    def _known_as(self, found: Settled) -> int:
+    def _known_as(self, motion: Settled) -> int:
         """Number of the motion that this is; -1 if it is new."""
         for number, one in enumerate(self.known):
-            if one.found.period == found.period and same(one.found, found, self.stage.max_events):
+            if one.settled_motion.period == motion.period and same(
+                one.settled_motion, motion, self.stage.max_events
+            ):
                 return number
         return -1
 
     def _rest(self, left: _Whole, states: _Array, owner: _Tiny, outcome: _Tiny) -> None:
         """Classify what no trap has caught by what it visits, or by following it to its end."""
-        if any(not one.found.period for one in self.known):
+        if any(not one.settled_motion.period for one in self.known):
             seen = np.full((_WATCHED, len(left)), np.nan)
             going, now = np.arange(len(left)), states
             for row in seen:
@@ -168,7 +170,7 @@ class Search:
             seen.sort(axis=0)
             for column, i in zip(going, left[going], strict=True):
                 apart = [
-                    1.0 if one.found.period else distance(one.visited, seen[:, column])
+                    1.0 if one.settled_motion.period else distance(one.visited, seen[:, column])
                     for one in self.known
                 ]
                 if min(apart) <= ALIKE:
@@ -180,7 +182,7 @@ class Search:
     def _set_traps(self) -> None:
         rows = np.vstack([one.traps for one in self.known])
         self.traps = NO_TRAPS._replace(rows=rows)
-        wandering = [i for i, one in enumerate(self.known) if not one.found.period]
+        wandering = [i for i, one in enumerate(self.known) if not one.settled_motion.period]
         if not wandering or not has_no_memory(self.stage):
             return
         cells = cells_around(np.vstack([self.known[i].points[:, :2] for i in wandering]))

@@ -149,8 +149,8 @@ def follow(
     absorption.caught.prepare(engine_rig(stage.rig))
     if len(regions) < _WORTH_IT and not isinstance(threads, int):
         threads = None
-    found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
-    return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    pieces = each(follow_region, regions, steps=number, threads=threads, progress=progress)
+    return Followed(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
 
 def images(
@@ -160,10 +160,10 @@ def images(
 
     Points are u, u̇, u_R, u_L, z, the deformations away from the mass.
     """
-    found = follow(stage, points, None, NO_TRAPS, cycles, threads)
-    known = found.outcome == Status.NOT_SETTLED
+    motions = follow(stage, points, None, NO_TRAPS, cycles, threads)
+    known = motions.outcome == Status.NOT_SETTLED
     where = np.full(points.shape, np.nan)
-    where[known] = parts(found.states)
+    where[known] = parts(motions.states)
     return where, known
 
 

@@ -161,16 +161,18 @@ def manifolds(
     fast = span_of(velocity, VELOCITY, "velocity")
     search = Search(stage, max_cycles, workers)
     if wide is None or fast is None:
-        found = window(search, progress)
-        wide, fast = wide or found[0], fast or found[1]
+        default_ranges = window(search, progress)
+        wide, fast = wide or default_ranges[0], fast or default_ranges[1]
     corners = np.array([wide, fast])
     left_out: list[str] = []
     if saddles is None:
         orbits, left_out = border_saddles(search, (wide, fast), progress)
     else:
         alone = isinstance(saddles, xr.Dataset | State)
-        given: list[Any] = [saddles] if alone else list(check_list(saddles, "saddles"))
-        orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
+        saddle_list: list[Any] = [saddles] if alone else list(check_list(saddles, "saddles"))
+        orbits = [
+            given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(saddle_list)
+        ]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
     share_of_cycles = max(curve_cycles // max(len(_SIDES) * len(points), 1), 1)
     measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES, share_of_cycles)
@@ -216,10 +218,10 @@ def _curves(
         threads=workers,
         progress=progress and (lambda done, _: progress(done, total)),
     )
-    found: list[list[tuple[str, Curve]]] = []
+    curves: list[list[tuple[str, Curve]]] = []
     done = _PARTS * len(sides)
     for number, saddle in enumerate(saddles):
-        found.append([("stable", curve) for curve in first[2 * number : 2 * number + 2]])
+        curves.append([("stable", curve) for curve in first[2 * number : 2 * number + 2]])
         for kind, side in _SIDES:
             if kind == "stable":
                 continue
@@ -229,11 +231,11 @@ def _curves(
                     progress(done + int(_PARTS * min(share, 1.0)), total)
 
             curve = unstable_curve(stage, saddle, side, measure, workers, tell)
-            found[-1].append((kind, curve))
+            curves[-1].append((kind, curve))
             done += _PARTS
             if progress:
                 progress(done, total)
-    return found
+    return curves
 
 
 def _tell(tally: Tally, share: float) -> None:

@@ -45,13 +45,13 @@ def matched(
         for number, now in leads.items()
         if (distance := point_distance(before[number], here[now])) <= NEAR
     )
-    given: dict[int, int] = {}
+    number_of: dict[int, int] = {}
     for _, number, now in pairs:
-        given.setdefault(now, number)
+        number_of.setdefault(now, number)
     numbers = []
     for now in range(len(here)):
-        if now not in given:
-            given[now] = first_free
+        if now not in number_of:
+            number_of[now] = first_free
             first_free += 1
-        numbers.append(given[now])
+        numbers.append(number_of[now])
     return numbers

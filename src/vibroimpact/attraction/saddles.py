@@ -68,7 +68,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     """
     full = orbit.section.simpler(orbit.section.count, mirror=False)
     one = Section(full.family, 1, False, full.scale)
-    point, found = orbit.point, []
+    point, saddles = orbit.point, []
     for _ in range(orbit.section.period):
         status, here, _ = evaluated(full, relaxed(point), 0.0)
         values, vectors = np.linalg.eig(here.own[:2, :2])
@@ -82,9 +82,9 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
                 "with one of them above 1 and the other below 1"
             )
         real, ways = values.real, vectors.real
-        found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
+        saddles.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
         _, _, point = evaluated(one, point, here.mode)
-    return found
+    return saddles
 
 
 def check_flies(stage: Stage, orbit: Orbit) -> None:
@@ -110,9 +110,9 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
 
 def relaxed(point: _Array) -> _Array:
     """A point of the section map with relaxed bumpers."""
-    found = point.copy()
-    found[2:4] = 0.0
-    return found
+    relaxed_point = point.copy()
+    relaxed_point[2:4] = 0.0
+    return relaxed_point
 
 
 def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: str) -> Orbit:
@@ -133,9 +133,9 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
                 f"excitation is {stage.excitation.phase:.6g} rad; compute the orbit again with the "
                 "phase of the excitation"
             )
-    found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
-    check_flies(stage, found)
-    return found
+    saddle = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+    check_flies(stage, saddle)
+    return saddle
 
 
 class BorderSaddles(NamedTuple):
@@ -157,7 +157,7 @@ def border_saddles(
     points = np.array(lattice(*window, shape))
     labels = search.label(points, progress).owner.reshape(shape)
     span = np.ptp(np.array(window), axis=1)
-    found: list[Orbit] = []
+    orbits: list[Orbit] = []
     known: list[_Array] = []
     places, borders = _places(labels)
     for number, (inside, outside) in enumerate(places):
@@ -174,7 +174,7 @@ def border_saddles(
             cycle = saddle_points(orbit, "saddles")
         except InputError:
             continue
-        found.append(orbit)
+        orbits.append(orbit)
         known += [one.point for one in cycle]
     if progress and places:
         progress(len(places), len(places))
@@ -184,12 +184,12 @@ def border_saddles(
             f"{borders - _ALL_TRIED} of {borders} borders between two basins were not searched for "
             "saddles; narrow the window to search them"
         )
-    if len(found) > _MOST:
+    if len(orbits) > _MOST:
         left_out.append(
-            f"{len(found)} saddle orbits were found; only the {_MOST} of the shortest period have "
+            f"{len(orbits)} saddle orbits were found; only the {_MOST} of the shortest period have "
             "curves; pass others as saddles"
         )
-    return BorderSaddles(sorted(found, key=lambda one: one.section.count)[:_MOST], left_out)
+    return BorderSaddles(sorted(orbits, key=lambda one: one.section.count)[:_MOST], left_out)
 
 
 def _places(labels: NDArray[np.int8]) -> tuple[list[tuple[int, int]], int]:

@@ -107,11 +107,11 @@ class _Chains:
                 self._cut(i)
                 return CYCLES
             before, here = self.chains[i - 1], self.chains[i]
-            found = self._preimage(here[level - 1], before[level], before[level - 1])
+            preimage = self._preimage(here[level - 1], before[level], before[level - 1])
             gap = 0.0
-            if found is not None:
-                gap = float(np.linalg.norm(self.measure.scaled(found - before[level])))
-            if found is None or gap > self.measure.spacing:
+            if preimage is not None:
+                gap = float(np.linalg.norm(self.measure.scaled(preimage - before[level])))
+            if preimage is None or gap > self.measure.spacing:
                 if not self._insert(i, level):
                     self._cut(i)
                     return (
@@ -119,9 +119,9 @@ class _Chains:
                         "or an edge there"
                     )
                 continue
-            here.append(found)
+            here.append(preimage)
             total += gap
-            if not self.measure.within(found[None], _ROOM)[0]:
+            if not self.measure.within(preimage[None], _ROOM)[0]:
                 self._cut(i + 1)
                 return "the curve runs too far out of the window"
             if total > self.measure.longest:
@@ -144,12 +144,12 @@ class _Chains:
         for k in range(1, level):
             a, b = self.chains[i - 1], self.chains[i]
             guess = 0.5 * (a[k] + b[k])
-            found = self._solve(chain[-1], guess)
-            if found is None:
-                found = self._preimage(chain[-1], a[k], a[k - 1])
-            if found is None:
+            preimage = self._solve(chain[-1], guess)
+            if preimage is None:
+                preimage = self._preimage(chain[-1], a[k], a[k - 1])
+            if preimage is None:
                 return False
-            chain.append(found)
+            chain.append(preimage)
         self.parameters.insert(i, middle)
         self.chains.insert(i, chain)
         return True
@@ -172,7 +172,7 @@ class _Chains:
 
     def _solve(self, image: _Array, guess: _Array) -> _Array | None:
         """Newton's method for the point whose image is given."""
-        point, best, found = guess, np.inf, None
+        point, best, best_point = guess, np.inf, None
         for _ in range(_STEPS):
             mapped = self._map(point)
             if mapped is None:
@@ -180,7 +180,7 @@ class _Chains:
             miss = mapped[0] - image
             size = float(np.abs(self.measure.scaled(miss)).max())
             if size < best:
-                best, found = size, point
+                best, best_point = size, point
             if size <= _EXACT:
                 return point
             try:
@@ -192,7 +192,7 @@ class _Chains:
                 return None
             point = point - step
         # Where the map shrinks a lot, rounding of the image lets it come no closer.
-        return found if best <= 1e3 * _EXACT else None
+        return best_point if best <= 1e3 * _EXACT else None
 
     def _map(self, point: _Array) -> tuple[_Array, _Array] | None:
         """Image and derivative; None if a limit is met, or the image lies beside the plane."""

@@ -93,11 +93,11 @@ class _Images:
         """Displacement and velocity of points of this level; NaN if they were given up."""
         shares = parameters - self.level
         within = shares < 1.0
-        found = np.empty((len(parameters), 2))
-        found[within] = self._states(shares[within])[:, :2]
+        points = np.empty((len(parameters), 2))
+        points[within] = self._states(shares[within])[:, :2]
         if not within.all():  # where the next level begins
-            found[~within] = self._mapped(self.here[0.0][None], 1)[:, :2]
-        return found
+            points[~within] = self._mapped(self.here[0.0][None], 1)[:, :2]
+        return points
 
     def _states(self, shares: _Array) -> _Array:
         states = np.empty((len(shares), 5))
@@ -116,10 +116,10 @@ class _Images:
         return begun
 
     def _mapped(self, states: _Array, times: int) -> _Array:
-        found = states.copy()
+        end_states = states.copy()
         mapped = ~np.isnan(states).any(axis=1)
         if times and mapped.any():
             went, known = images(self.stage, states[mapped], self.cycles * times, self.workers)
-            found[mapped] = np.where(known[:, None], went, np.nan)
+            end_states[mapped] = np.where(known[:, None], went, np.nan)
             self.allowance.use(self.cycles * times * int(mapped.sum()))
-        return found
+        return end_states

@@ -33,9 +33,9 @@ def refuse(what: Subject, **options: Any) -> None:
     """
     for option, value in options.items():
         if value is not None and value is not False and value != ():
-            given = "set" if value is True else repr(value)
+            words = "set" if value is True else repr(value)
             raise InputError(
-                f"--{option}: {given}, but {what.name!r} has several masses, for which this option "
+                f"--{option}: {words}, but {what.name!r} has several masses, for which this option "
                 f"is not available; remove --{option}"
             )
 

@@ -134,8 +134,8 @@ def bifurcation(
             quantity=_SHOWN[quantity],
             branches=orbits,
         )
-    told, text = facts.facts(data), [facts.text(data)]
+    summary, text = facts.facts(data), [facts.text(data)]
     if orbits is not None:
-        told["bifurcations"] = branch.facts(orbits)["bifurcations"]
+        summary["bifurcations"] = branch.facts(orbits)["bifurcations"]
         text.append(branch.bifurcations(orbits))
-    return written.tell(told, *text)
+    return written.tell(summary, *text)

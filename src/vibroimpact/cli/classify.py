@@ -84,12 +84,12 @@ def classify(
     used = thresholds.thresholds()
     with results(what, output) as written:
         with progress_bar("sweeping") as progress:
-            found = classify_rig(
+            classification = classify_rig(
                 what.rig, grid, thresholds=used, threads=threads, progress=progress
             )
-        title = f"{what.title}: {found.scenario}, {facts.meaning(found.scenario)}"
-        written.write(found.sweep, "scenario", figures.resonance_curves, title)
-    return written.tell(facts.facts(found), Line(), facts.text(found))
+        title = f"{what.title}: {classification.scenario}, {facts.meaning(classification.scenario)}"
+        written.write(classification.sweep, "scenario", figures.resonance_curves, title)
+    return written.tell(facts.facts(classification), Line(), facts.text(classification))
 
 
 def _frequencies(

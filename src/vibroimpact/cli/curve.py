@@ -81,17 +81,17 @@ def curve(
     from vibroimpact.stability.curves_of_kind import curves_of_kind
 
     what = subject(rig, changes, output.name, masses=True)
-    found = read_vary(what, vary)
-    if len(found) != 2:
+    parameters = read_vary(what, vary)
+    if len(parameters) != 2:
         raise InputError(
-            f"--vary: given {len(found)} times; pass two parameters, such as --vary frequency "
+            f"--vary: given {len(parameters)} times; pass two parameters, such as --vary frequency "
             "--vary gap=1mm:20mm"
         )
-    for one in found:
+    for one in parameters:
         check_continuous(one)
-    first, second = found
+    first, second = parameters
     kind, pair = _KINDS[bifurcation], (first.name, second.name)
-    spans = {one.name: one.span for one in found}
+    spans = {one.name: one.span for one in parameters}
     shaken = rig_at(what, frequency, along=first.name)
     with results(what, output, fixed_frequency(shaken, *pair)) as written:
         with progress_bar("following curves") as progress:

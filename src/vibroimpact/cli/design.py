@@ -113,12 +113,14 @@ def design(
     from vibroimpact.facts import design as facts
     from vibroimpact.facts import rig as rig_facts
 
-    found = reading.read(records or records_of_design(rig))
-    what = subject(rig, changes, output.name, shaken=next(iter(found.values()), None), masses=True)
+    named_records = reading.read(records or records_of_design(rig))
+    what = subject(
+        rig, changes, output.name, shaken=next(iter(named_records.values()), None), masses=True
+    )
     several = is_assembly(what)
     if several:
         refuse(what, best=best)
-    suite = records_or_sines(what, found, scale, peak)
+    suite = records_or_sines(what, named_records, scale, peak)
     table = what.study.design if what.study else DesignTable()
     chosen_ranges, sines = split_sines(read_vary(what, vary))
     of_study, sines_of_study = split_sines(read_vary(what, table.vary or {}))

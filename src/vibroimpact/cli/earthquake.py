@@ -86,15 +86,15 @@ def earthquake(
     from vibroimpact.facts import earthquake as facts
     from vibroimpact.model.argument_types import whole
 
-    found = reading.read(records or records_of_design(rig, with_own_record=False))
-    first = next(iter(found.values()), None)
+    named_records = reading.read(records or records_of_design(rig, with_own_record=False))
+    first = next(iter(named_records.values()), None)
     what = subject(rig, changes, output.name, shaken=first, masses=True)
-    shaking = scale_records(found or record_of_study(what), scale, peak)
+    shaking = scale_records(named_records or record_of_study(what), scale, peak)
     samples = whole(samples, "samples")
     stems = record_stems(shaking)
     show = _show_masses if is_assembly(what) else _show
     text: list[Any] = []
-    told: list[dict[str, Any]] = []
+    record_facts: list[dict[str, Any]] = []
     responses = {}
     with results(what, output) as written:
         for name, record in shaking.items():
@@ -105,12 +105,12 @@ def earthquake(
             written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
             responses[name] = groups["response"]
             values, lines = show(written, name, shaken, groups, ending, tail)
-            told.append(values)
+            record_facts.append(values)
             text += lines
         join = response_table if is_assembly(what) else facts.together
         path = vi.save(join(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}
-    return written.tell({"records": told}, *text, shaking=False)
+    return written.tell({"records": record_facts}, *text, shaking=False)
 
 
 def _show(
@@ -167,12 +167,12 @@ def _show_masses(
     curves = figures.response_spectra(spectra, quantity="spectral_acceleration", title=title)
     written.draw(f"spectra of {name}", f"{ending}-spectra", curves)
     peak = shaken.record.peak
-    found = {
+    summary = {
         "record": name,
         "peak": peak,
         **facts.motion_facts(motion),
         "floor_spectra": facts.floor_facts(groups["floor"]),
     }
     heading = Line(f"{name}, peak {pretty(peak, ACCELERATION, 4)}", style="bold")
-    text = [Line(), heading, facts.motion_text(found)]
-    return found, [*text, Line(), facts.floor_text(found["floor_spectra"])]
+    text = [Line(), heading, facts.motion_text(summary)]
+    return summary, [*text, Line(), facts.floor_text(summary["floor_spectra"])]

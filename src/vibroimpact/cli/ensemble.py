@@ -120,8 +120,8 @@ def ensemble(
     if several:
         refuse(what, normalised=physical is False)
     table = what.study.ensemble if what.study else EnsembleTable()
-    given = opt.by_path("--uncertain", uncertain) or table.uncertain or {}
-    if not given:
+    distributions = opt.by_path("--uncertain", uncertain) or table.uncertain or {}
+    if not distributions:
         raise InputError(
             "--uncertain: missing; pass a parameter and its distribution, such as "
             "--uncertain gap=normal:5%, or set the key uncertain in the table [ensemble] of the "
@@ -136,7 +136,7 @@ def ensemble(
     with results(what, output) as written, progress_bar("sweeping") as progress:
         data = vi.ensemble(
             shaken,
-            given,
+            distributions,
             response,
             **opt.stated(
                 draws=table.draws if draws is None else draws, method=method or table.method
@@ -156,11 +156,13 @@ def ensemble(
         if sensitivity:
             count = data.sizes["sample"]
             indices = peak_sensitivity(
-                shaken, given, response, shown, draws=count, **chosen, progress=progress
+                shaken, distributions, response, shown, draws=count, **chosen, progress=progress
             )
-        for name, found in indices.items():
+        for name, dataset in indices.items():
             ending = f"sensitivity-{name.replace('_', '-')}"
-            written.files[f"indices of {name}"] = vi.save(found, written.path(ending, "nc"))
-            bars = figures.sensitivity_bars(found, title=what.title)
+            written.files[f"indices of {name}"] = vi.save(dataset, written.path(ending, "nc"))
+            bars = figures.sensitivity_bars(dataset, title=what.title)
             written.draw(f"figure of {name}", ending, bars)
-    return written.tell(facts.facts(data, given, indices), facts.text(data, given, indices))
+    return written.tell(
+        facts.facts(data, distributions, indices), facts.text(data, distributions, indices)
+    )

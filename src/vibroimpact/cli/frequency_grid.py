@@ -147,19 +147,19 @@ def list_frequencies(
         If a text is not a frequency greater than 0, or if both a list and a range are passed. Also
         if an end is missing that has no default.
     """
-    given = {"--from": start, "--to": stop, "--step": step}
+    texts = {"--from": start, "--to": stop, "--step": step}
     if listed is not None:
-        for option, text in given.items():
+        for option, text in texts.items():
             if text is not None:
                 raise InputError(
                     f"{option}: given together with --frequencies; remove one of the two options"
                 )
         return tuple(part.strip() for part in listed.split(",")) if listed.strip() else ()
-    if all(text is None for text in given.values()) and table and table.frequencies is not None:
+    if all(text is None for text in texts.values()) and table and table.frequencies is not None:
         return tuple(table.frequencies)
     from_study = (table.start, table.to, table.step) if table else (None, None, None)
     numbers: list[float] = []
-    for (option, text), studied, otherwise in zip(given.items(), from_study, default, strict=True):
+    for (option, text), studied, otherwise in zip(texts.items(), from_study, default, strict=True):
         number = otherwise if studied is None else studied
         if text is not None:
             number = to_si(text, FREQUENCY, option, above=0.0)

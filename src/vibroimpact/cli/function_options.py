@@ -148,11 +148,11 @@ def with_default(text: str, default: Any) -> str:
 
 def _descriptions(docstring: str) -> dict[str, str]:
     """Return the descriptions of the parameters in a NumPy docstring, as plain sentences."""
-    found = {}
+    descriptions = {}
     for one in docstring_parser.parse(docstring, docstring_parser.DocstringStyle.NUMPYDOC).params:
         for name in one.arg_name.split(","):
-            found[name.strip()] = _plain(one.description or "")
-    return found
+            descriptions[name.strip()] = _plain(one.description or "")
+    return descriptions
 
 
 def _plain(text: str) -> str:

@@ -75,7 +75,7 @@ def _aligned(text: str) -> str:
 
     shown = re.compile(r"^(#   vibroimpact .*?)  +(?=\S)", re.MULTILINE)
     wide = max(len(command) for command in shown.findall(text))
-    return shown.sub(lambda found: f"{found[1]:{wide}}  ", text)
+    return shown.sub(lambda match: f"{match[1]:{wide}}  ", text)
 
 
 _STEP = 0.01

@@ -94,13 +94,13 @@ def motion(
         )
     options = {"random": random, "window": window, "samples": samples}
     with results(what, output) as written:
-        found = {}
+        by_frequency = {}
         for hertz, one in shaken.items():
             with progress_bar("finding motions") as progress:
-                found[hertz] = named_motions(one, branch, **options, progress=progress)
+                by_frequency[hertz] = named_motions(one, branch, **options, progress=progress)
         drawn = {
             hertz: {name: data for name, data in motions.items() if data.sizes["time"]}
-            for hertz, motions in found.items()
+            for hertz, motions in by_frequency.items()
         }
         for hertz, motions in drawn.items():
             if not motions:
@@ -109,14 +109,14 @@ def motion(
                     "frequency or the rig"
                 )
         groups = {
-            f"{forcing_slug(hertz)} {name}" if len(found) > 1 else name: data
+            f"{forcing_slug(hertz)} {name}" if len(by_frequency) > 1 else name: data
             for hertz, motions in drawn.items()
             for name, data in motions.items()
         }
-        ending = f"{'-'.join(map(forcing_slug, found))}-motion"
+        ending = f"{'-'.join(map(forcing_slug, by_frequency))}-motion"
         columns = facts.columns(drawn, MOST_COLUMNS)
         written.write(groups, ending, figures.motion_page, drawn=columns)
-    return written.tell({"motions": facts.facts(found)}, facts.text(found))
+    return written.tell({"motions": facts.facts(by_frequency)}, facts.text(by_frequency))
 
 
 def _of_masses(
@@ -147,8 +147,8 @@ def _of_masses(
         write_motion(written, data, ending, title, None)
         lines = figures.mass_spectra(data, title=title)
         written.draw("spectrum", f"{ending}-spectrum", lines)
-        found = facts.steady_facts(data)
-    return written.tell(found, facts.steady_text(found))
+        summary = facts.steady_facts(data)
+    return written.tell(summary, facts.steady_text(summary))
 
 
 def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:

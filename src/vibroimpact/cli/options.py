@@ -110,14 +110,14 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     InputError
         If a name occurs twice.
     """
-    found: dict[str, str] = {}
+    values: dict[str, str] = {}
     for name, value in pairs:
         base, dot, part = name.partition(".")
         key = base.replace("-", "_") + dot + part
-        if key in found:
+        if key in values:
             raise InputError(f"{option}: {name!r} is given twice; remove one of the two")
-        found[key] = value
-    return found
+        values[key] = value
+    return values
 
 
 def by_path(option: str, texts: Sequence[str]) -> dict[str, str]:
@@ -128,15 +128,15 @@ def by_path(option: str, texts: Sequence[str]) -> dict[str, str]:
     InputError
         If a text has no ``=``, or if a path occurs twice.
     """
-    found: dict[str, str] = {}
+    values: dict[str, str] = {}
     for text in texts:
         path, equals, value = (part.strip() for part in text.partition("="))
         if not (path and equals and value):
             raise InputError(f"{option}: {text!r}; pass PATH=VALUE in one word, such as gap=9mm")
-        if path in found:
+        if path in values:
             raise InputError(f"{option}: {path!r} is given twice; remove one of the two")
-        found[path] = value
-    return found
+        values[path] = value
+    return values
 
 
 def stated(**options: Any) -> dict[str, Any]:

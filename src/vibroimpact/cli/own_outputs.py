@@ -37,7 +37,7 @@ def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
     """
     from vibroimpact.response.outputs import Output
 
-    found: dict[str, vi.Output] = {}
+    outputs: dict[str, vi.Output] = {}
     for text in texts:
         match = _WRITTEN.fullmatch(text)
         if match is None:
@@ -46,7 +46,7 @@ def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
                 "mean(isolator.damping*velocity**2)'"
             )
         name, units, formula = match.groups()
-        if name in found:
+        if name in outputs:
             raise InputError(f"--compute: {name!r} is given twice; remove one of the two")
-        found[name] = Output(formula, units=(units or "").strip() or "1")
-    return found or None
+        outputs[name] = Output(formula, units=(units or "").strip() or "1")
+    return outputs or None

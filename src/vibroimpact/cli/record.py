@@ -102,26 +102,28 @@ def record(
             "lower --shortest"
         )
     natural_periods = np.geomspace(first, last, whole(periods, "periods", 2))
-    found = vi.Record.read(
+    ground_motion = vi.Record.read(
         file, reading.component, station=station, label=label, **reading.arguments()
     )
     if start is not None or end is not None:
-        found = found.cut(start or 0.0, end)
+        ground_motion = ground_motion.cut(start or 0.0, end)
     if baseline is not None:
-        found = found.levelled(baseline)
+        ground_motion = ground_motion.levelled(baseline)
     if scale is not None or peak is not None:
-        found = found.scaled(1.0 if scale is None else scale, peak=peak)
+        ground_motion = ground_motion.scaled(1.0 if scale is None else scale, peak=peak)
     with width_of_figures(output), output_folder(output.output) as folder:
-        spectrum = vi.response_spectrum(found, natural_periods, ratios)
+        spectrum = vi.response_spectrum(ground_motion, natural_periods, ratios)
         (plain,) = record_stems([name.replace(" ", "-")]).values()
         stem = folder / f"{file_stem(called) if called else plain}-record"
-        about = found.about
+        about = ground_motion.about
         where = ", ".join(part for part in (about.station, about.component) if part)
-        axes = figures.accelerogram(found, spectrum, title=literal(where or name))
+        axes = figures.accelerogram(ground_motion, spectrum, title=literal(where or name))
         files = {
-            "data": vi.save({"record": accelerogram(found), "spectrum": spectrum}, f"{stem}.nc"),
+            "data": vi.save(
+                {"record": accelerogram(ground_motion), "spectrum": spectrum}, f"{stem}.nc"
+            ),
             "figure": figures.save_figure(axes, f"{stem}.{output.figure}"),
         }
-    text = facts.text(found, spectrum)
-    tell(text, facts.facts(found, spectrum), folder, files, output.json)
+    text = facts.text(ground_motion, spectrum)
+    tell(text, facts.facts(ground_motion, spectrum), folder, files, output.json)
     return 0

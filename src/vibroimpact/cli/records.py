@@ -75,20 +75,20 @@ class RecordOptions:
         """
         from vibroimpact.model import Record
 
-        found: dict[str, Record] = {}
+        records: dict[str, Record] = {}
         names = list(files)
         options = (("--component", self.component), ("--unit", self.unit), ("--step", self.step))
         said = (one_or_each(option, text, len(names)) for option, text in options)
         for file, *own in dict.fromkeys(zip(names, *said, strict=True)):
             component, unit, step = own
             name = record_name(file, component)
-            if name in found:
+            if name in records:
                 raise InputError(
                     f"RECORD: {file!r} has the same file name as another record; rename one of the "
                     "two files"
                 )
-            found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
-        return found
+            records[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
+        return records
 
 
 def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
@@ -193,7 +193,7 @@ def scale_records(
 
 
 def records_or_sines(
-    what: Subject, found: dict[str, Record], scale: str | None, peak: str | None
+    what: Subject, named_records: dict[str, Record], scale: str | None, peak: str | None
 ) -> dict[str, Record] | None:
     """Return the scaled records of the options or of the study. None means sines.
 
@@ -204,7 +204,7 @@ def records_or_sines(
     """
     from vibroimpact.model import Record
 
-    records = found or (record_of_study(what) if isinstance(what.shaking, Record) else {})
+    records = named_records or (record_of_study(what) if isinstance(what.shaking, Record) else {})
     for option, value in (("--scale", scale), ("--peak", peak)):
         if value is not None and not records:
             raise InputError(

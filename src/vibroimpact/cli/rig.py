@@ -172,23 +172,23 @@ def subject(
     InputError
         If the code, the file or a value of the options is invalid.
     """
-    found = _named(text, options)
-    if found.system.by_mass and not masses:
+    original = _named(text, options)
+    if original.system.by_mass and not masses:
         raise InputError(
             f"study {text!r}: assembly: this command computes one mass, not an assembly of several "
             f"masses; use vibroimpact {', '.join(SEVERAL_MASSES[:-1])} or {SEVERAL_MASSES[-1]}"
         )
     if shaken is not None:
-        found = found._replace(shaking=shaken)
+        original = original._replace(shaking=shaken)
 
     values = stated(options)
 
     def rig_of(values: Mapping[str, str]) -> tuple[System, Repeated | Record | None]:
         fields = dict(values)
-        amplitude, shaking = fields.pop("amplitude", None), found.shaking
+        amplitude, shaking = fields.pop("amplitude", None), original.shaking
         if amplitude is not None:
-            shaking = _of_size(shaking, amplitude, found.system.units == NONE)
-        system = changed(found.system, fields, otherwise if shaking is None else shaking)
+            shaking = _of_size(shaking, amplitude, original.system.units == NONE)
+        system = changed(original.system, fields, otherwise if shaking is None else shaking)
         named = {f"--{k}" if k in _OWN else f"--set: {k}": text for k, text in values.items()}
         return with_stated_units(system, named), shaking
 
@@ -206,14 +206,16 @@ def subject(
         )
     made = [_change(path, text, system) for path, text in _effective(values, rig_of).items()]
     what = Subject(
-        ", ".join((found.title, *(change.words for change in made))),
+        ", ".join((original.title, *(change.words for change in made))),
         file_stem(
-            check_name(name, "--name") if name else "-".join((found.slug, *(c.slug for c in made)))
+            check_name(name, "--name")
+            if name
+            else "-".join((original.slug, *(c.slug for c in made)))
         ),
         system,
         shaking,
-        found.study,
-        found.case and system.angular_frequency == found.system.angular_frequency,
+        original.study,
+        original.case and system.angular_frequency == original.system.angular_frequency,
     )
     doubt_stops(Rig(system, what.shaking))
     return what
@@ -268,11 +270,11 @@ def _of_size(
         return None
     is_plain = without_units and not has_unit(amplitude)
     kept = shaking.of if shaking is not None and is_plain else None
-    found, _ = as_periodic(amplitude, "--amplitude", kept)
+    periodic, _ = as_periodic(amplitude, "--amplitude", kept)
     if shaking is None:
-        return found
-    on = None if found.moves_base else shaking.on
-    return found.replace(phase=shaking.phase, on=on)
+        return periodic
+    on = None if periodic.moves_base else shaking.on
+    return periodic.replace(phase=shaking.phase, on=on)
 
 
 def _named(text: str, options: RigOptions) -> _Named:

@@ -35,11 +35,11 @@ def show(
     from vibroimpact.figures.assembly import oscillator_drawing
 
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
-    found = facts.facts(what.system)
+    summary = facts.facts(what.system)
     with results(what, output) as written:
         if what.system.by_mass:
             drawn = figures.assembly_drawing(what.assembly, title=what.title)
         else:
             drawn = oscillator_drawing(what.oscillator, title=what.title)
         written.draw("drawing", "system", drawn)
-    return written.tell(found, facts.text(found))
+    return written.tell(summary, facts.text(summary))

@@ -151,8 +151,8 @@ def simulate(
             name = f"{forcing_slug(hertz)}-history"
             written.write(data, name, figures.time_history, title, cycles=last)
     if is_assembly(what):
-        found = masses.motion_facts(data)
-        return written.tell(found, masses.motion_text(found))
+        summary = masses.motion_facts(data)
+        return written.tell(summary, masses.motion_text(summary))
     return written.tell(facts.facts(data), facts.text(data))
 
 

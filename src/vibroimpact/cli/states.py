@@ -126,8 +126,8 @@ def plane(what: Subject, texts: Sequence[str]) -> dict[str, tuple[str, str]] | N
         If several masses have not two of them, if one is not a range, or if a coordinate occurs
         twice.
     """
-    found = by_path("--plane", texts)
-    spans = {name: _read_range(f"--plane: {name}", text) for name, text in found.items()}
+    range_texts = by_path("--plane", texts)
+    spans = {name: _read_range(f"--plane: {name}", text) for name, text in range_texts.items()}
     if what.system.by_mass and len(spans) != 2:
         first = what.system.names[0]
         raise InputError(

@@ -92,13 +92,13 @@ def _flat(table: Any) -> Any:
     """Join the keys of nested tables: in TOML, ``right.gap = "5 mm:9 mm"`` makes two tables."""
     if not isinstance(table, Mapping):
         return table
-    found: dict[str, Any] = {}
+    entries: dict[str, Any] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
-            found |= {f"{key}.{rest}": text for rest, text in _flat(value).items()}
+            entries |= {f"{key}.{rest}": text for rest, text in _flat(value).items()}
         else:
-            found[key] = value
-    return found
+            entries[key] = value
+    return entries
 
 
 class DesignTable(Model):

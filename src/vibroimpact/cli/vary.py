@@ -141,15 +141,15 @@ def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[V
         ranges = [("frequency", "")] * (len(texts) - len(written)) + ranges
         order = [text.partition("=")[0].strip() for text in texts]
         ranges.sort(key=lambda one: order.index(one[0]))
-    found = {}
+    parameters = {}
     for path, text in ranges:
         varied = parameter(path, what.rig, "--vary")
-        if varied.name in found:
+        if varied.name in parameters:
             raise InputError(f"--vary: {path!r} is given twice; remove one of the two")
-        found[varied.name] = (
+        parameters[varied.name] = (
             read_vary_text(path, varied, text, _value(what, varied)) if text else _frequencies(what)
         )
-    return list(found.values())
+    return list(parameters.values())
 
 
 def _value(what: Subject, varied: Parameter) -> float | None:
@@ -170,15 +170,15 @@ def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> Var
     InputError
         As `read_vary`. Also if there are several options.
     """
-    found = read_vary(what, texts or ("frequency",))
-    if len(found) > 1:
+    ranges = read_vary(what, texts or ("frequency",))
+    if len(ranges) > 1:
         raise InputError(
-            f"--vary: given {len(found)} times, but this command varies one parameter; remove all "
+            f"--vary: given {len(ranges)} times, but this command varies one parameter; remove all "
             "but one"
         )
     if not number:
-        check_continuous(found[0])
-    return found[0]
+        check_continuous(ranges[0])
+    return ranges[0]
 
 
 def split_sines(

@@ -152,9 +152,9 @@ def predicted(path: Path[P], here: P, length: float) -> Array:
     return here.y + length * here.tangent * path.scale
 
 
-def is_other_curve(path: Path[P], found: Array, aim: Array, length: float) -> bool:
+def is_other_curve(path: Path[P], solution: Array, aim: Array, length: float) -> bool:
     """Whether a solution is so far from the prediction that it lies on another curve."""
-    return distance(path, found, aim) > _MISS * length + 1e-9
+    return distance(path, solution, aim) > _MISS * length + 1e-9
 
 
 def distance(path: Path[P], one: Array, other: Array) -> float:
@@ -184,8 +184,8 @@ def unit_tangent(jacobian: Array, along: Array, seen: Array) -> Array:
     held: NDArray[Any] = np.zeros(len(along))
     held[-1] = 1.0
     try:
-        found: Array = np.linalg.solve(matrix, held)
+        tangent: Array = np.linalg.solve(matrix, held)
     except np.linalg.LinAlgError:
         last: Array = np.linalg.svd(jacobian)[2][-1]
-        found = last if last @ (along * seen) >= 0.0 else -last
-    return found / _length(found * seen)
+        tangent = last if last @ (along * seen) >= 0.0 else -last
+    return tangent / _length(tangent * seen)

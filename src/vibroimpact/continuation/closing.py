@@ -33,8 +33,8 @@ def returned(
     """
     for mark, tangent in marks:
         guess = crossing(path, here, there, mark, tangent)
-        found = None if guess is None else solved(guess, tangent)
-        if found is not None and distance(path, found, mark) <= SAME:
+        solution = None if guess is None else solved(guess, tangent)
+        if solution is not None and distance(path, solution, mark) <= SAME:
             return True
     return False
 

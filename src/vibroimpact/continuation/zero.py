@@ -41,31 +41,31 @@ def zero_within(
     """
     a, b = 0.0, end
     fa = function(begin)
-    found = solved(b)
-    if found is None:
+    solution = solved(b)
+    if solution is None:
         return None
-    fb = function(found)
-    best = (abs(fb), found, b)
+    fb = function(solution)
+    best = (abs(fb), solution, b)
     for _ in range(60):
         middle = 0.5 * (a + b)
         if middle in (a, b) or fb == 0.0:
             break
-        found = solved(middle)
-        if found is None:
+        solution = solved(middle)
+        if solution is None:
             return None
-        fm = function(found)
-        best = min(best, (abs(fm), found, middle), key=lambda item: item[0])
+        fm = function(solution)
+        best = min(best, (abs(fm), solution, middle), key=lambda item: item[0])
         root = math.sqrt(max(fm * fm - fa * fb, 0.0))
         if root == 0.0:
             break
         new = middle + (middle - a) * math.copysign(1.0, fa - fb) * fm / root
         if not a < new < b:
             break
-        found = solved(new)
-        if found is None:
+        solution = solved(new)
+        if solution is None:
             return None
-        fn = function(found)
-        best = min(best, (abs(fn), found, new), key=lambda item: item[0])
+        fn = function(solution)
+        best = min(best, (abs(fn), solution, new), key=lambda item: item[0])
         if fn == 0.0 or b - a < 1e-15:
             break
         narrowed = False
@@ -122,11 +122,11 @@ def between_zeros(
             return None
         if abs(share - known[1][0]) < _SAME and number:
             return None
-        found = solved(share * end)
-        if found is None:
+        solution = solved(share * end)
+        if solution is None:
             return None
-        if (there := sign * function(found)) < 0.0:
-            return found, share * end
+        if (there := sign * function(solution)) < 0.0:
+            return solution, share * end
         known = sorted([*(known if number else (known[0], known[2])), (share, there)])
         i = min(range(1, len(known) - 1), key=lambda i: known[i][1])
         known = known[i - 1 : i + 2]

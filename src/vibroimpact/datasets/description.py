@@ -81,8 +81,8 @@ def describe(
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
-    if told := "\n".join(dict.fromkeys([*_assumptions(dataset, parameters), *notes])):
-        dataset.attrs["notes"] = told
+    if text := "\n".join(dict.fromkeys([*_assumptions(dataset, parameters), *notes])):
+        dataset.attrs["notes"] = text
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
     # The rigs of a fit are an attribute of their own.
     if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
@@ -226,5 +226,5 @@ def system_from(parameters: Mapping[str, Any]) -> System:
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
     """Return the shaking from the attributes of a dataset; `others` replace or add values."""
     kind = Periodic if "amplitudes" in parameters else Harmonic
-    given = {k: parameters[k] for k in kind.model_fields if k in parameters}
-    return kind.model_validate({**given, **others})
+    fields = {k: parameters[k] for k in kind.model_fields if k in parameters}
+    return kind.model_validate({**fields, **others})

@@ -66,11 +66,11 @@ def by_stop(
     of = (system.part_names["stop"] if names is None else names).tolist()
     lacking = [name not in system.stops for name in of]
     at = [system.counted_stops.index(name) for name in of]
-    found = values[..., at[0] : at[-1] + 1] if at else values[..., :0]  # without a copy
+    columns = values[..., at[0] : at[-1] + 1] if at else values[..., :0]  # without a copy
     if any(lacking):
-        found = found.astype(np.float64)
-        found[..., lacking] = np.nan
-    return found
+        columns = columns.astype(np.float64)
+        columns[..., lacking] = np.nan
+    return columns
 
 
 def each_by_stop(
@@ -113,23 +113,23 @@ def over_stops(values: xr.DataArray) -> xr.DataArray:
 
 def over_parts(values: xr.DataArray) -> xr.DataArray:
     """Return `over_stops`; of masses and links the largest value, of a lowest one the lowest."""
-    found = over_stops(values)
+    array = over_stops(values)
     for dim in ("mass", "link"):
-        if dim in found.dims:
+        if dim in array.dims:
             lowest = str(values.name).endswith("_min")
-            found = (found.min if lowest else found.max)(dim, keep_attrs=True)
-    return found
+            array = (array.min if lowest else array.max)(dim, keep_attrs=True)
+    return array
 
 
 def quantities(data: xr.Dataset) -> list[str]:
     """Return the names that `quantity` accepts: of variables, and of each of their parts."""
-    found = []
+    names = []
     for name, one in data.data_vars.items():
-        found.append(str(name))
+        names.append(str(name))
         for dim in PARTS:
             if dim in one.dims:
-                found += [f"{name}.{part}" for part in data[dim].values]
-    return found
+                names += [f"{name}.{part}" for part in data[dim].values]
+    return names
 
 
 def quantity(data: xr.Dataset, name: str) -> xr.DataArray:

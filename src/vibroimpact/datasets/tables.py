@@ -59,8 +59,8 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     about = next((dims for dims in main if dims), alone[0])
     dims = about if rows is None else (rows,)
     is_name = rows is None or isinstance(rows, str)
-    if not is_name or not any(set(dims) <= set(given) for given in along):
-        known = dict.fromkeys(str(dim) for given in main for dim in given)
+    if not is_name or not any(set(dims) <= set(own_dims) for own_dims in along):
+        known = dict.fromkeys(str(dim) for own_dims in main for dim in own_dims)
         raise InputError(
             f"rows: {shown(rows)} is not a dimension of this dataset; pass one of "
             f"{', '.join(known)}"
@@ -87,11 +87,11 @@ def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict
     if not dims:
         return {name: variable}
     dim, *rest = dims
-    found: dict[str, xr.DataArray] = {}
+    arrays: dict[str, xr.DataArray] = {}
     for i in range(variable.sizes[dim]):
         label = variable[dim].values[i] if dim in variable.coords else i
-        found |= _side_by_side(f"{name}.{label}", variable.isel({dim: i}, drop=True), rest)
-    return found
+        arrays |= _side_by_side(f"{name}.{label}", variable.isel({dim: i}, drop=True), rest)
+    return arrays
 
 
 def as_text(dataset: xr.Dataset) -> str:

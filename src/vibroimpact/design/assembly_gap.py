@@ -53,15 +53,15 @@ def gaps_for_records(
     # What closes at a stop is the drift of its bodies the other way.
     closing = [Drift(*assembly.ends(stop)[::-1]) for stop in assembly.stops.values()]
     runs = [Shaken(free, record, np.ones(1), closing) for record in records.values()]
-    found = peaks(runs, tail=tail, threads=workers, progress=progress)
-    for status in map(Status, found["status"][:, 0].tolist()):
+    peak_values = peaks(runs, tail=tail, threads=workers, progress=progress)
+    for status in map(Status, peak_values["status"][:, 0].tolist()):
         if status is Status.NOT_FINITE:
             raise InputError(_GROWS)
         if status is not Status.DONE:
             raise InputError(
                 f"shaking: the motion without stops could not be computed: {status.advice}"
             )
-    reached = found["drift_max"][:, 0]
+    reached = peak_values["drift_max"][:, 0]
     (gap,) = quantiles(reached, [fractile], 0)
     return xr.Dataset(
         {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},
@@ -108,8 +108,10 @@ def gaps_for_sines(assembly: Assembly, sine: Harmonic, span: tuple[Any, Any]) ->
         stiff = k - w**2 * m + 1j * w * c
         # At rest in free flight, far beyond resonance, the solution loses no digits.
         u = np.linalg.solve(stiff, np.broadcast_to(weights[:, np.newaxis], (len(omega), n, 1)))
-        found: _Array = np.abs(np.einsum("fi,wi->wf", closing, u[..., 0])) * forcing[:, np.newaxis]
-        return found
+        amplitude: _Array = (
+            np.abs(np.einsum("fi,wi->wf", closing, u[..., 0])) * forcing[:, np.newaxis]
+        )
+        return amplitude
 
     swing = reach(grid)
     best, at = swing.max(axis=0), grid[swing.argmax(axis=0)]

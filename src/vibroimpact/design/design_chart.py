@@ -144,8 +144,8 @@ def design_chart(
         names = system.part_names
         parts = {name: names[DIMS[name]].tolist() for name in known if name in DIMS}
     most = limits_of(limits, known, parts)
-    found = what.peaks(rigs, workers, progress)
-    data = _dataset(plan, rigs, {**found, **_dampings(plan, rigs)}, most)
+    responses = what.peaks(rigs, workers, progress)
+    data = _dataset(plan, rigs, {**responses, **_dampings(plan, rigs)}, most)
     warn_given_up(data["status"].values, "design", "designs")
     parameters = {
         **system_parameters(system),
@@ -171,25 +171,25 @@ def _dampings(plan: Runs, rigs: list[System]) -> dict[str, NDArray[Any]]:
 def _dataset(
     plan: Runs,
     rigs: list[System],
-    found: Mapping[str, NDArray[Any]],
+    responses: Mapping[str, NDArray[Any]],
     limits: Mapping[str, float],
 ) -> xr.Dataset:
     """Return the results of all designs, over the parameters that were varied."""
-    within, first = np.ones(found["status"].shape, dtype=bool), rigs[0]
+    within, first = np.ones(responses["status"].shape, dtype=bool), rigs[0]
     for name, limit in limits.items():
         base, _, part = name.partition(".")
-        values: Any = found[base]
+        values: Any = responses[base]
         if part:
             values = values[:, first.part_names[DIMS[base]].tolist().index(part)]
         within &= severity(name, values) <= severity(name, limit)
     u, a = (
-        np.where(within, severity(name, found[name]), np.nan)
+        np.where(within, severity(name, responses[name]), np.nan)
         for name in ("peak_displacement", "peak_acceleration")
     )
     own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
     names = shared_part_names(rigs)
     shaped = {}
-    for name, values in {**found, **own}.items():
+    for name, values in {**responses, **own}.items():
         dims = plan.dims
         if first.by_mass:
             dims += (DIMS[name],) if name in DIMS else ()

@@ -124,14 +124,15 @@ class ByRecords(NamedTuple):
     ) -> dict[str, NDArray[Any]]:
         """Of each record and rig, as arrays (record, rig)."""
         records = list(self.records.values())
-        found = peaks(
+        peak_values = peaks(
             [Shaken(rig, record, np.ones(1)) for record in records for rig in rigs],
             tail=self.tail,
             threads=workers,
             progress=progress,
         )
         values: dict[str, NDArray[Any]] = {
-            name: v.reshape(len(records), len(rigs), *v.shape[2:]) for name, v in found.items()
+            name: v.reshape(len(records), len(rigs), *v.shape[2:])
+            for name, v in peak_values.items()
         }
         beyond = np.isin(values["status"], UNSTABLE)
         for name in set(values) - {"status"}:
@@ -157,15 +158,15 @@ class ByRecords(NamedTuple):
         status = runs["status"]
         bad = (status != Status.DONE) & ~np.isin(status, UNSTABLE)
         given_up = bad.any(axis=0)
-        found: dict[str, NDArray[Any]] = {}
+        fractiles: dict[str, NDArray[Any]] = {}
         for name, values in every.items():
             (known,) = quantiles(np.nan_to_num(values, nan=0.0), [self.fractile], 0)
-            found[name] = np.where(given_up[(..., *[None] * (known.ndim - 1))], np.nan, known)
-        found["displacement_min"] = 0.0 - found["displacement_min"]
-        found["hitting"] = np.where(given_up, np.nan, (force > 0.0).any(axis=-1).mean(axis=0))
+            fractiles[name] = np.where(given_up[(..., *[None] * (known.ndim - 1))], np.nan, known)
+        fractiles["displacement_min"] = 0.0 - fractiles["displacement_min"]
+        fractiles["hitting"] = np.where(given_up, np.nan, (force > 0.0).any(axis=-1).mean(axis=0))
         worst = np.where(given_up, np.where(bad, status, 0).max(axis=0), status.max(axis=0))
-        found["status"] = worst.astype(np.int64)
-        return found
+        fractiles["status"] = worst.astype(np.int64)
+        return fractiles
 
     def parameters(self) -> dict[str, Any]:
         """The records, and the fractile."""
@@ -197,8 +198,8 @@ def _penetration(rigs: Sequence[System], right: _Array, left: _Array) -> dict[st
         ]
     ).reshape(-1, 2)
     with np.errstate(invalid="ignore"):
-        found: _Array = np.maximum(np.maximum(right - gaps[:, 0], left - gaps[:, 1]), 0.0)
-    return {"penetration": found}
+        depth: _Array = np.maximum(np.maximum(right - gaps[:, 0], left - gaps[:, 1]), 0.0)
+    return {"penetration": depth}
 
 
 def design_rig(
@@ -220,8 +221,10 @@ def design_rig(
         If it cannot be used.
     """
     as_rig(rig, oscillator_alone=records is not None)
-    found, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
-    return one_mass_only(found), what
+    oscillator, what = design_system(
+        rig, records, frequencies, fractile=fractile, step=step, tail=tail
+    )
+    return one_mass_only(oscillator), what
 
 
 def design_system(
@@ -234,20 +237,20 @@ def design_system(
     tail: Any,
 ) -> tuple[System, BySines | ByRecords]:
     """Do what `design_rig` does, also for an assembly."""
-    found = as_rig_of_any_masses(rig) if records is None else one_system(rig)
-    engine_system(found.system).check_size()
-    if records is None and isinstance(found.shaking, Record):
-        records = found.shaking
+    checked_rig = as_rig_of_any_masses(rig) if records is None else one_system(rig)
+    engine_system(checked_rig.system).check_size()
+    if records is None and isinstance(checked_rig.shaking, Record):
+        records = checked_rig.shaking
     if records is not None:
         if frequencies is not None:
             raise InputError(
                 "vary: 'frequency' depends on the shaking, which is a record; remove it"
             )
         by_records = ByRecords(suite(records), fractile, tail)
-        return with_stated_units(found.system, in_words(by_records.records)), by_records
-    shaken = found if found.system.by_mass else one_sine(found)
+        return with_stated_units(checked_rig.system, in_words(by_records.records)), by_records
+    shaken = checked_rig if checked_rig.system.by_mass else one_sine(checked_rig)
     low, high = read_frequencies(frequencies)
-    return found.system, BySines(Sines(shaken.sine, low, high, step))
+    return checked_rig.system, BySines(Sines(shaken.sine, low, high, step))
 
 
 def split_frequency(vary: object) -> tuple[Any, object]:

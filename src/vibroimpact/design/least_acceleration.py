@@ -64,8 +64,8 @@ class _Space(NamedTuple):
     def values(self, x: _Array) -> _Array:
         """Return the values of the parameters for columns in the coordinates of the search."""
         logs = self.logarithmic[:, np.newaxis]
-        found = np.where(logs, np.exp(np.where(logs, x, 0.0)), x)
-        return np.clip(found, self.low[:, np.newaxis], self.high[:, np.newaxis])
+        numbers = np.where(logs, np.exp(np.where(logs, x, 0.0)), x)
+        return np.clip(numbers, self.low[:, np.newaxis], self.high[:, np.newaxis])
 
     def rigs(self, x: _Array) -> list[Oscillator]:
         """Return the rig of each column."""
@@ -91,17 +91,17 @@ class _Known:
         new = [one for one in columns if one.tobytes() not in self.rows]
         new = list({one.tobytes(): one for one in new}.values())
         if new:
-            found = self.what.peaks(self.space.rigs(np.array(new).T), self.workers, None)
+            responses = self.what.peaks(self.space.rigs(np.array(new).T), self.workers, None)
             for i, one in enumerate(new):
-                self.rows[one.tobytes()] = {name: v[i] for name, v in found.items()}
+                self.rows[one.tobytes()] = {name: v[i] for name, v in responses.items()}
             if self.progress:
                 self.progress(len(self.rows), None)
         return [self.rows[one.tobytes()] for one in columns]
 
     def of(self, name: str, x: _Array) -> _Array:
         """Return the severity of one quantity per column."""
-        found = severity(name, np.array([one[name] for one in self(x)]))
-        return np.where(np.isfinite(found), found, _VAST)
+        severities = severity(name, np.array([one[name] for one in self(x)]))
+        return np.where(np.isfinite(severities), severities, _VAST)
 
 
 _NEAR = 0.01
@@ -196,7 +196,7 @@ def least_acceleration(
         )
         for name, limit in most.items()
     )
-    found = differential_evolution(
+    optimum = differential_evolution(
         lambda x: known.of("peak_acceleration", x),
         space.bounds,
         popsize=_EACH,
@@ -208,9 +208,9 @@ def least_acceleration(
         vectorized=True,
         constraints=constraints,
     )
-    (best,) = known(np.asarray(found.x)[:, np.newaxis])
+    (best,) = known(np.asarray(optimum.x)[:, np.newaxis])
     _refuse(best, most)
-    values = space.values(np.asarray(found.x)[:, np.newaxis])[:, 0]
+    values = space.values(np.asarray(optimum.x)[:, np.newaxis])[:, 0]
     notes = [*_untouched(oscillator, best), *_slack(best, most), *_at_ends(space, values)]
     if oscillator.stops and not best["hitting"]:
         warn_of_input("least_acceleration", notes)
@@ -235,8 +235,8 @@ def least_acceleration(
         **what.parameters(),
     }
     varied = [parameter(name, oscillator) for name in space.names]
-    told = [*what.notes(), *notes]
-    return describe(data, "vibroimpact.least_acceleration", parameters, told, varied)
+    all_notes = [*what.notes(), *notes]
+    return describe(data, "vibroimpact.least_acceleration", parameters, all_notes, varied)
 
 
 def _space(rig: Oscillator, vary: Any) -> _Space:

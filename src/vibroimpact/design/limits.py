@@ -46,16 +46,16 @@ def limits_of(
     """
     accepted = [name for name in known if name != "peak_acceleration"]
     accepted += [f"{name}.{part}" for name in accepted for part in parts.get(name, ())]
-    found = {}
-    given = check_mapping({} if limits is None else limits, "limits", _EXAMPLE)
-    for name, value in given.items():
+    bounds = {}
+    entries = check_mapping({} if limits is None else limits, "limits", _EXAMPLE)
+    for name, value in entries.items():
         key = underscored(name)
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
         base = key.partition(".")[0]
         ends = {"maximum": 0.0} if base == _LEFT else {"minimum": 0.0}
-        found[key] = to_si(value, in_units(VARIABLES[base].units), f"limits[{name!r}]", **ends)
-    return found
+        bounds[key] = to_si(value, in_units(VARIABLES[base].units), f"limits[{name!r}]", **ends)
+    return bounds
 
 
 def underscored(name: str) -> str:
@@ -75,10 +75,10 @@ def severity(name: str, values: Any) -> Any:
         Its value, or its limit; of designs along the first axis. Stops, masses and links are along
         the last one.
     """
-    found = _sense(name) * values
-    if np.ndim(found) > 1 or (has_stops(name) and np.ndim(found)):
-        found = found.max(axis=-1)
-    return found
+    severities = _sense(name) * values
+    if np.ndim(severities) > 1 or (has_stops(name) and np.ndim(severities)):
+        severities = severities.max(axis=-1)
+    return severities
 
 
 def _sense(name: str) -> float:

@@ -100,18 +100,18 @@ def required_gap(
     oscillator = one_mass_only(system)
     free = oscillator.without_bumpers()
     if isinstance(what, ByRecords):
-        found = _of_records(free, what, workers, progress)
+        gaps = _of_records(free, what, workers, progress)
     elif free.isolator.linear:
-        found = _in_closed_form(free, what.sines)
+        gaps = _in_closed_form(free, what.sines)
     else:
-        found = _swept(free, what.sines, workers, progress)
-    if not np.isfinite(found["common_gap"]):
+        gaps = _swept(free, what.sines, workers, progress)
+    if not np.isfinite(gaps["common_gap"]):
         raise InputError(
             "shaking: without stops the motion of the mass grows without bound, so no gap is wide "
             "enough; give the isolator more damping or stiffness, or reduce the shaking"
         )
     parameters = {**system_parameters(oscillator), **what.parameters()}
-    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
+    return describe(gaps, "vibroimpact.required_gap", parameters, what.notes())
 
 
 def _of_assembly(
@@ -119,18 +119,16 @@ def _of_assembly(
 ) -> xr.Dataset:
     """Return the gap of each stop of an assembly."""
     if isinstance(what, ByRecords):
-        found = gaps_for_records(
-            assembly, what.records, what.fractile, what.tail, workers, progress
-        )
+        gaps = gaps_for_records(assembly, what.records, what.fractile, what.tail, workers, progress)
     else:
         if not assembly.linear:
             raise InputError(
                 "links: the gaps for sines require linear links; pass records, or use sweep"
             )
         sines = what.sines
-        found = gaps_for_sines(assembly, sines.shaken, (sines.low, sines.high))
+        gaps = gaps_for_sines(assembly, sines.shaken, (sines.low, sines.high))
     parameters = {**system_parameters(assembly), **what.parameters()}
-    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
+    return describe(gaps, "vibroimpact.required_gap", parameters, what.notes())
 
 
 def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:

@@ -97,12 +97,12 @@ class _Measured(NamedTuple):
 def _measured(system: System, rows: HoldRows) -> _Measured:
     if system.by_mass:
         measured = engine_system(system).measured(rows.array, ())
-        found = {name: v for name, (_, v) in measured.items()}
-        force = found["peak_force"]
+        variables = {name: v for name, (_, v) in measured.items()}
+        force = variables["peak_force"]
         return _Measured(
-            found["displacement_max"],
-            found["displacement_min"],
-            found["peak_acceleration"],
+            variables["displacement_max"],
+            variables["displacement_min"],
+            variables["peak_acceleration"],
             force,
             np.asarray((force > 0.0).any(axis=-1)),
         )
@@ -174,9 +174,9 @@ class Sines(NamedTuple):
             self.frequencies(rig)  # refused before anything is computed
 
         def task(one: tuple[System, _Array, _Array], tally: Tally) -> Worst:
-            found = _Search(self, *one, tally).worst()
+            worst_case = _Search(self, *one, tally).worst()
             tally[0] = RIG
-            return found
+            return worst_case
 
         return each(
             task,
@@ -245,26 +245,26 @@ class _Search:
         return self._held(places, held.states[first] if sound else self.start)
 
     def _seen(self, held: _Holds) -> Worst:
-        rows, found = held.rows, _measured(self.rig, held.rows)
-        codes = engine_system(self.rig).judged(rows.status, found.displacement)
+        rows, measures = held.rows, _measured(self.rig, held.rows)
+        codes = engine_system(self.rig).judged(rows.status, measures.displacement)
         bad = codes[np.isin(codes, _UNBOUNDED)]
         sound = np.isin(codes, _SOUND)
         if len(bad) or not sound.all():
             status = int(bad[0] if len(bad) else codes[~sound][0])
             value = math.inf if len(bad) else math.nan
-            of_mass = np.full_like(found.acceleration[0], value)
+            of_mass = np.full_like(measures.acceleration[0], value)
             nowhere = np.full_like(of_mass, math.nan)
-            force = np.full_like(found.force[0], value)
+            force = np.full_like(measures.force[0], value)
             hits = bool(len(bad) and self.rig.stops)
             return Worst(of_mass, of_mass, of_mass, force, hits, nowhere, nowhere, 0, status)
         return Worst(
-            found.most.max(axis=0),
-            (-found.least).max(axis=0),
-            found.acceleration.max(axis=0),
-            found.force.max(axis=0),
-            bool(found.touched.any()),
-            held.frequency[found.displacement.argmax(axis=0)],
-            held.frequency[found.acceleration.argmax(axis=0)],
+            measures.most.max(axis=0),
+            (-measures.least).max(axis=0),
+            measures.acceleration.max(axis=0),
+            measures.force.max(axis=0),
+            bool(measures.touched.any()),
+            held.frequency[measures.displacement.argmax(axis=0)],
+            held.frequency[measures.acceleration.argmax(axis=0)],
             int((codes != Status.DONE).sum()),
             int(Status.DONE),
         )

@@ -42,11 +42,11 @@ class RunColumns(PartColumns):
 
 def peaks_of_assemblies(rows: _Array, layout: Layout) -> dict[str, NDArray[Any]]:
     """Return `PEAKS` and ``status`` of runs, shape (run, factor) and, if so, mass, link or stop."""
-    found = RunColumns(rows.reshape(-1, rows.shape[-1]), layout)
-    low, high = found.of_mass(phases.U_LEAST), found.of_mass(phases.U_MOST)
-    felt = np.maximum(-found.of_mass(phases.A_LEAST), found.of_mass(phases.A_MOST))
-    closes, opens = found.of_drift(phases.D_LEAST), found.of_drift(phases.D_MOST)
-    carried = found.rows[:, [phases.CARRIED_LEAST, phases.CARRIED_MOST]]
+    columns = RunColumns(rows.reshape(-1, rows.shape[-1]), layout)
+    low, high = columns.of_mass(phases.U_LEAST), columns.of_mass(phases.U_MOST)
+    felt = np.maximum(-columns.of_mass(phases.A_LEAST), columns.of_mass(phases.A_MOST))
+    closes, opens = columns.of_drift(phases.D_LEAST), columns.of_drift(phases.D_MOST)
+    carried = columns.rows[:, [phases.CARRIED_LEAST, phases.CARRIED_MOST]]
     values = {
         "peak_displacement": np.maximum(-low, high),
         "displacement_max": high,
@@ -55,9 +55,9 @@ def peaks_of_assemblies(rows: _Array, layout: Layout) -> dict[str, NDArray[Any]]
         "peak_drift": np.maximum(-closes, opens),
         "drift_max": opens,
         "drift_min": closes,
-        "peak_force": found.of_stop(phases.FORCE),
-        "impulse": found.of_stop(phases.IMPULSE),
-        "impact_count": found.rows[:, layout.width :][:, : layout.stops],
+        "peak_force": columns.of_stop(phases.FORCE),
+        "impulse": columns.of_stop(phases.IMPULSE),
+        "impact_count": columns.rows[:, layout.width :][:, : layout.stops],
         "peak_transmitted_force": np.abs(carried).max(axis=1),
     }
     of_runs = {name: one.reshape(*rows.shape[:-1], *one.shape[1:]) for name, one in values.items()}
@@ -65,7 +65,7 @@ def peaks_of_assemblies(rows: _Array, layout: Layout) -> dict[str, NDArray[Any]]
 
 
 def _nothing(assembly: Assembly) -> dict[str, Any]:
-    sizes = {name: len(found) for name, found in assembly.part_names.items()}
+    sizes = {name: len(labels) for name, labels in assembly.part_names.items()}
     names = (*PEAKS, *ENERGIES)
     return {
         name: (dim, np.full(sizes[dim], np.nan)) if dim else ((), np.nan)
@@ -89,9 +89,9 @@ def seismic_response_of_assembly(
     values = _nothing(assembly)
     if status is Status.DONE:
         nothing = np.empty(0)
-        found = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
-        peaks = extremes(found)
-        values = {name: peaks[name] for name in PEAKS} | energies(found)
+        motion = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
+        peaks = extremes(motion)
+        values = {name: peaks[name] for name in PEAKS} | energies(motion)
     data = xr.Dataset(values, assembly.part_names)
     data["status"] = int(status)
     return status, data

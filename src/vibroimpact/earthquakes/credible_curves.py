@@ -52,8 +52,8 @@ class Curves(NamedTuple):
         ends = [
             _ends((one - self.log_median) * slope, self.weight, confidence) for one in logarithms
         ]
-        found: _Array = ndtr(np.array(ends).T)
-        return found
+        probabilities: _Array = ndtr(np.array(ends).T)
+        return probabilities
 
 
 def begin_to_exceed(exceeding: NDArray[np.int64], count: int) -> _Array:
@@ -135,8 +135,8 @@ class _Weights:
     def of(self, offset: _Array, log_slope: _Array) -> _Array:
         """Of curves of any shape; dθ/θ dβ/β is dv da/b."""
         a, b = offset[..., np.newaxis], np.exp(log_slope)[..., np.newaxis]
-        found: _Array = self._numbers * _log_share(a + b * self._low, a + b * self._high)
-        return np.asarray(found.sum(axis=-1) - log_slope)
+        terms: _Array = self._numbers * _log_share(a + b * self._low, a + b * self._high)
+        return np.asarray(terms.sum(axis=-1) - log_slope)
 
     def best_offsets(self, log_slope: _Array) -> _Array:
         """The offset of the largest weight at each slope (whose logarithm is concave)."""

@@ -198,10 +198,10 @@ def demands(
         if not finished(group):
             _complete(group, task, block, progress)
             group.attrs["finished"] = True
-        found = {name: read(group, _KIND.word, name) for name in (*task.values, "status")}
+        variables = {name: read(group, _KIND.word, name) for name in (*task.values, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: ((*dims, *task.part_of(name)), values) for name, values in found.items()},
+        {name: ((*dims, *task.part_of(name)), values) for name, values in variables.items()},
         {**task.parts, **along},
     )
     if not several:
@@ -280,7 +280,7 @@ class _Task(NamedTuple):
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
         chosen = range(one.records.start, one.records.stop)
         rigs = [self.rigs.system(at) for at in places]
-        found = peaks(
+        peak_values = peaks(
             [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
             tail=self.tail,
             residuals=True,
@@ -288,13 +288,15 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
-        for name in filter(has_stops, found):
-            found[name] = each_by_stop(rigs * len(chosen), found[name], self.parts["stop"])
+        for name in filter(has_stops, peak_values):
+            peak_values[name] = each_by_stop(
+                rigs * len(chosen), peak_values[name], self.parts["stop"]
+            )
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
         scale = len(shape) - 1
         return {
             name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
-            for name, v in found.items()
+            for name, v in peak_values.items()
         }
 
 
@@ -307,8 +309,8 @@ def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | No
     for one in blocks(task.shape, most):
         size = levels * math.prod(s.stop - s.start for s in (one.records, *one.rigs))
         if not ready[one.number]:
-            told = _beyond(progress, before, total)
-            write_block(group, one.place, task.block(one, told))
+            report = _beyond(progress, before, total)
+            write_block(group, one.place, task.block(one, report))
             group["done"][one.number] = 1  # type: ignore[index]
         before += size
         if progress:

@@ -103,7 +103,7 @@ def fragility(
     above = exceeds(values, quantity, least).transpose(*order).values
     logarithms = np.log(values["scale"].values)
     shape = above.shape[2:]
-    found = {
+    variables = {
         name: np.full((*extra, *shape), np.nan)
         for name, extra in (
             ("median_capacity", ()),
@@ -118,8 +118,8 @@ def fragility(
         one = _curve(above[(slice(None), slice(None), *at)], logarithms, confidence)
         if one is not None:
             for name, value in one.items():
-                found[name][(..., *at)] = value
-    none = np.isnan(found["median_capacity"])
+                variables[name][(..., *at)] = value
+    none = np.isnan(variables["median_capacity"])
     what = "above the limit" if limit is not None else f"above 0 in {quantity}"
     undetermined = _undetermined(none, values, above, what, _IN_ERROR if none.all() else _TOLD)
     if none.all():
@@ -128,7 +128,7 @@ def fragility(
     if undetermined:
         warn_of_result(f"fragility: {undetermined}")
     others = order[2:]
-    unbounded = _unbounded(found["median_capacity_bound"], values, above)
+    unbounded = _unbounded(variables["median_capacity_bound"], values, above)
     if unbounded:
         warn_of_result(f"fragility: {unbounded}")
     dims = {
@@ -138,7 +138,7 @@ def fragility(
     data = exceedance(demands, quantity, least).assign(
         {
             name: (dims.get(name, (*(("bound",) if "bound" in name else ()), *others)), value)
-            for name, value in found.items()
+            for name, value in variables.items()
         }
     )
     data = data.assign_coords(bound=["lower", "upper"])
@@ -147,9 +147,9 @@ def fragility(
     data = described(data, "vibroimpact.fragility", demands, about)
     data.attrs.update(
         {
-            name: told
-            for name, told in (("undetermined", undetermined), ("unbounded", unbounded))
-            if told
+            name: message
+            for name, message in (("undetermined", undetermined), ("unbounded", unbounded))
+            if message
         }
     )
     for name in ("median_capacity", "median_capacity_bound"):
@@ -161,12 +161,12 @@ def _undetermined(
     none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str, most: int
 ) -> str:
     """Describe which rigs have no curve, and which levels would give one; "" if all have one."""
-    told = []
+    reasons = []
     for at in np.argwhere(none):
         why = _why(above[(slice(None), slice(None), *at)], values["scale"], what)
         whose = _whose(values, at)
-        told.append(f"no curve {whose}: {why}" if whose else why)
-    return _listed(told, most)
+        reasons.append(f"no curve {whose}: {why}" if whose else why)
+    return _listed(reasons, most)
 
 
 def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
@@ -214,24 +214,24 @@ def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
 
 def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
     """Describe curves without an interval, and levels that would give one; "" if all have one."""
-    told = []
+    needs = []
     for at in np.argwhere(np.isinf(bounds[1])):
         one = above[(slice(None), slice(None), *at)]
         begin = begin_to_exceed(one.sum(axis=0), len(one))
         beyond = (word for word, n in (("lower", begin[0]), ("higher", begin[-1])) if n > 0.0)
-        told.append(f"{' and '.join(beyond)} scales {_whose(values, at)}".rstrip())
-    if not told:
+        needs.append(f"{' and '.join(beyond)} scales {_whose(values, at)}".rstrip())
+    if not needs:
         return ""
     return (
         "there is no interval, because fewer than two records begin to exceed the limit within "
-        f"the scales; to get an interval, pass to demands: {_listed(told)}"
+        f"the scales; to get an interval, pass to demands: {_listed(needs)}"
     )
 
 
-def _listed(told: list[str], most: int = _TOLD) -> str:
-    left = len(told) - most
+def _listed(texts: list[str], most: int = _TOLD) -> str:
+    left = len(texts) - most
     more = [f"and {left} more curve{'s' if left > 1 else ''}"] if left > 0 else []
-    return "; ".join([*told[:most], *more])
+    return "; ".join([*texts[:most], *more])
 
 
 def _whose(values: xr.DataArray, at: NDArray[np.int64]) -> str:
@@ -267,7 +267,7 @@ def _curve(
     whole = fit(exceeding, count, logarithms)
     if whole is None:
         return None
-    found = {
+    values = {
         "median_capacity": math.exp(whole.log_median),
         "dispersion": math.exp(whole.log_dispersion),
         "fitted_probability": ndtr(whole.reached(logarithms)),
@@ -277,10 +277,10 @@ def _curve(
     }
     curves = credible_curves(exceeding, count, logarithms)
     if curves is not None:
-        found["median_capacity_bound"] = curves.median_range(confidence)
-        found["dispersion_bound"] = curves.dispersion_range(confidence)
-        found["fitted_probability_bound"] = curves.probability_range(logarithms, confidence)
-    return found
+        values["median_capacity_bound"] = curves.median_range(confidence)
+        values["dispersion_bound"] = curves.dispersion_range(confidence)
+        values["fitted_probability_bound"] = curves.probability_range(logarithms, confidence)
+    return values
 
 
 def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
@@ -320,8 +320,8 @@ def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | N
         )
 
     first = np.array([0.0, 2.0])
-    found = minimize(unlikely, first, jac=True, method="BFGS", options={"gtol": 1e-9 * count})
-    a, b = found.x
+    optimum = minimize(unlikely, first, jac=True, method="BFGS", options={"gtol": 1e-9 * count})
+    a, b = optimum.x
     if not b > 0.0:
         return None
     return Fit(middle - a / b * size, math.log(size / b))

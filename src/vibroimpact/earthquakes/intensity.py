@@ -47,16 +47,16 @@ class Measure(NamedTuple):
         InputError
             If a record is 0 throughout.
         """
-        found = self.of(records)
-        for i in np.flatnonzero(found == 0.0):
+        intensities = self.of(records)
+        for i in np.flatnonzero(intensities == 0.0):
             raise InputError(
                 f"records[{i}]: all samples are 0, so the record cannot be scaled to a "
                 f"{self.name}; remove this record"
             )
-        return found, levels / found[:, np.newaxis]
+        return intensities, levels / intensities[:, np.newaxis]
 
 
-def measure(given: Any) -> Measure:
+def measure(choice: Any) -> Measure:
     """Read an intensity measure: "factor", "PGA", or a natural period and a damping ratio.
 
     Raises
@@ -64,16 +64,16 @@ def measure(given: Any) -> Measure:
     InputError
         If it is none of them.
     """
-    if isinstance(given, str) and given == "factor":
+    if isinstance(choice, str) and choice == "factor":
         return Measure("factor of the record", DIMENSIONLESS)
-    if isinstance(given, str) and given == "PGA":
+    if isinstance(choice, str) and choice == "PGA":
         return Measure("peak ground acceleration", ACCELERATION)
-    if not isinstance(given, tuple | list) or len(given) != 2:
+    if not isinstance(choice, tuple | list) or len(choice) != 2:
         raise InputError(
-            f'intensity: {shown(given)}; pass "factor", "PGA", or the natural period (s) and the '
+            f'intensity: {shown(choice)}; pass "factor", "PGA", or the natural period (s) and the '
             "damping ratio of a spectral acceleration, such as (1.0, 0.05)"
         )
-    period = to_si(given[0], TIME, "intensity[0]", above=0.0)
-    damping = to_si(given[1], DIMENSIONLESS, "intensity[1]", minimum=0.0)
+    period = to_si(choice[0], TIME, "intensity[0]", above=0.0)
+    damping = to_si(choice[1], DIMENSIONLESS, "intensity[1]", minimum=0.0)
     name = f"pseudo-acceleration at T = {period:.6g} s, ζ = {damping:.4g}"
     return Measure(name, ACCELERATION, period, damping)

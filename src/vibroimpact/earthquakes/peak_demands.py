@@ -169,8 +169,8 @@ def peaks(
 
     runs = len(shaken) * count
     steps = count * sum(len(one.record.acceleration) - 1 for one in shaken)
-    told = partial(_by_run, progress, runs) if progress and not by_line else progress
-    each_found = each(task, items, steps=steps, threads=threads, progress=told)
+    report = partial(_by_run, progress, runs) if progress and not by_line else progress
+    each_found = each(task, items, steps=steps, threads=threads, progress=report)
     for (n, some), mine in zip(parts, each_found, strict=True):
         rows[n, some] = mine
     if shaken and shaken[0].system.by_mass:

@@ -90,10 +90,10 @@ def runs(
     rigs = {name: with_stated_units(one, values) for name, one in rigs.items()}
     one = next(iter(rigs.values()))
     every = read_values(vary, one, least=least, but=NOT_VARIED, why=WHY_NOT)
-    found = Runs(rigs, every, not is_one_rig(rig))
-    for at in itertools.product(*((0, n - 1) for n in found.shape)):
-        found.system(at)  # refused before anything is computed
-    return found
+    plan = Runs(rigs, every, not is_one_rig(rig))
+    for at in itertools.product(*((0, n - 1) for n in plan.shape)):
+        plan.system(at)  # refused before anything is computed
+    return plan
 
 
 def in_words(records: Mapping[str, Record]) -> dict[str, Record]:
@@ -112,24 +112,24 @@ def suite(records: Any) -> dict[str, Record]:
     if isinstance(records, Record):
         records = [records]
     if isinstance(records, Mapping):
-        found = {str(name): one for name, one in records.items()}
+        by_name = {str(name): one for name, one in records.items()}
     else:
         listed = check_list(records, "records") if is_list(records) else [records]
-        found = {}
+        by_name = {}
         for i, one in enumerate(listed):
             about = one.about if isinstance(one, Record) else None
             parts = (Path(about.source).name, about.component) if about else ()
             name = " ".join(part for part in parts if part) or str(i)
-            found[name if name not in found else f"{name} ({i})"] = one
-    for name, one in found.items():
+            by_name[name if name not in by_name else f"{name} ({i})"] = one
+    for name, one in by_name.items():
         if not isinstance(one, Record):
             raise InputError(
                 f"records[{name!r}]: {shown(one)} is not a record; pass a Record, such as the "
                 "result of Record.read"
             )
-    if not found:
+    if not by_name:
         raise InputError("records: missing; pass at least one Record")
-    return found
+    return by_name
 
 
 def digest(record: Record) -> str:
@@ -153,12 +153,12 @@ class Block(NamedTuple):
 
 def chunks(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
     """How long blocks are along each dim: filled from the last on, `most` places in all."""
-    found = []
+    lengths = []
     left = most
     for length in reversed(shape):
-        found.append(max(1, min(length, left)))
-        left = max(1, left // found[-1])
-    return tuple(reversed(found))
+        lengths.append(max(1, min(length, left)))
+        left = max(1, left // lengths[-1])
+    return tuple(reversed(lengths))
 
 
 def blocks(shape: tuple[int, ...], most: int) -> Iterator[Block]:

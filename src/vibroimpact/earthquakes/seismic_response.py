@@ -97,7 +97,7 @@ def seismic_response(
         notes = [*record.about.notes, *energy_notes(system)]
         return _described(data, status, rig, behind, notes)
     oscillator = rig.oscillator
-    found = peaks(
+    peak_values = peaks(
         [Shaken(oscillator, record, np.ones(1))],
         tail=behind,
         energies=True,
@@ -107,7 +107,7 @@ def seismic_response(
         progress=progress,
         by_line=True,
     )
-    values: dict[str, Any] = {name: one[0, 0] for name, one in found.items()}
+    values: dict[str, Any] = {name: one[0, 0] for name, one in peak_values.items()}
     for name in filter(has_stops, [*values]):
         values[name] = ("stop", by_stop(oscillator, values[name]))
     data = xr.Dataset(values, oscillator.part_names)

@@ -83,9 +83,9 @@ def fractiles(
     if not chosen:
         raise InputError("shares: the list is empty; pass at least one share from 0 to 1")
     sense = _sense(quantity)
-    found = sense * quantiles(sense * values.values, chosen, values.dims.index(over))
+    quantile_values = sense * quantiles(sense * values.values, chosen, values.dims.index(over))
     dims = ("fractile", *(dim for dim in values.dims if dim != over))
-    made = {str(values.name): (dims, found)}
+    made = {str(values.name): (dims, quantile_values)}
     data = xr.Dataset(made, {"fractile": chosen, **_coords(values)})
     return described(data, "vibroimpact.fractiles", demands, {"quantity": quantity})
 
@@ -102,9 +102,9 @@ def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "All-NaN slice", RuntimeWarning)
         pick = np.nanquantile if np.isnan(known).any() else np.quantile
-        found: _Array = pick(known, shares, axis=axis)
-    found[found > 1e-3 * _VAST] = np.inf
-    return found
+        quantile_values: _Array = pick(known, shares, axis=axis)
+    quantile_values[quantile_values > 1e-3 * _VAST] = np.inf
+    return quantile_values
 
 
 def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
@@ -172,8 +172,8 @@ def exceeds(values: xr.DataArray, quantity: str, limit: float) -> xr.DataArray:
 
 def _unbounded(values: xr.DataArray, status: xr.DataArray, quantity: str) -> xr.DataArray:
     """Return values of a quantity, infinite where a run exceeded all limits."""
-    found = values.where(~status.isin(UNSTABLE), _sense(quantity) * math.inf)
-    return found.transpose(*values.dims)
+    all_values = values.where(~status.isin(UNSTABLE), _sense(quantity) * math.inf)
+    return all_values.transpose(*values.dims)
 
 
 def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:

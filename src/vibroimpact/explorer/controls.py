@@ -87,13 +87,13 @@ def controls(state: PageState, first: PageState) -> list[Control]:
     ArithmeticError
         If a number of the rig, or an end of a range, is not finite.
     """
-    found = [*_physical(state, first), *_dimensionless(state)]
-    for knob in found:
+    knobs = [*_physical(state, first), *_dimensionless(state)]
+    for knob in knobs:
         if not (math.isfinite(knob.value) and math.isfinite(knob.high - knob.low)):
             raise OverflowError(knob.path)
         if knob.log and not knob.low > 0.0:
             raise FloatingPointError(knob.path)
-    return found
+    return knobs
 
 
 def _physical(state: PageState, first: PageState) -> Iterator[Control]:
@@ -166,22 +166,22 @@ def _dimensionless(state: PageState) -> Iterator[Control]:
     """The numbers of the paper's Section 7, where the rig has them."""
     rig, group = state.oscillator, "dimensionless"
     for name in OF_RIG:
-        found = _read(rig, state, name)
-        if found is not None:
-            ends = RANGES.get(name, (found / TENFOLD, found * TENFOLD, True))
+        value = _read(rig, state, name)
+        if value is not None:
+            ends = RANGES.get(name, (value / TENFOLD, value * TENFOLD, True))
             yield _control(
-                name, group, name.replace("_", " "), found, PARAMETERS[name].quantity, ends
+                name, group, name.replace("_", " "), value, PARAMETERS[name].quantity, ends
             )
     both = rig.right == rig.left and state.together
     for side in ("stops",) if both else SIDES:
         alone = rig if both else one_sided_or_none(rig, side)
         for name in DIMENSIONLESS:
-            found = None if alone is None else _read(alone, state, name)
-            if found is None:
+            value = None if alone is None else _read(alone, state, name)
+            if value is None:
                 continue
             words = name.replace("_", " ")
             label = words if both else f"{words}, {side}"
-            yield _control(f"{side}.{name}", group, label, found, NUMBER, RANGES[name])
+            yield _control(f"{side}.{name}", group, label, value, NUMBER, RANGES[name])
 
 
 def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:

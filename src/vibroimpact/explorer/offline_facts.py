@@ -152,7 +152,7 @@ _EITHER = {"moving": "1 m/s²", "still": "1 N"}
 
 def _labels(amplitude: str) -> dict[str, list[str]]:
     """Labels of all panels of resonance curves, with {} in place of a unit that fits the values."""
-    found = {}
+    labels = {}
     # Force and impulse have panels where stops of either law are hit.
     for stop in (Bumper(9.0, 0.1, 1e-3), RigidStop(0.5, 1e-3)):
         rig = Oscillator("2 kg", Isolator(1.0, 0.1), stop)
@@ -162,8 +162,8 @@ def _labels(amplitude: str) -> dict[str, list[str]]:
             picture = curves.curves(state._replace(physical=physical), data, fine=False)
             for one in picture["panels"]:
                 text = "\n".join(one["label"])
-                found[one["name"]] = _FITTING.sub("({})", text).split("\n")
-    return found
+                labels[one["name"]] = _FITTING.sub("({})", text).split("\n")
+    return labels
 
 
 def table(state: states.PageState) -> Table:
@@ -197,9 +197,9 @@ def _quantity(one: Quantity) -> Table:
 
 def _accepts(law: Any) -> Iterator[tuple[str, Accepts]]:
     for name in in_order(law):
-        found = next((o for o in law.model_fields[name].metadata if isinstance(o, Accepts)), None)
-        if found is not None and name != _ONLY_LINEAR:
-            yield name, found
+        rule = next((o for o in law.model_fields[name].metadata if isinstance(o, Accepts)), None)
+        if rule is not None and name != _ONLY_LINEAR:
+            yield name, rule
 
 
 def _fields(law: Any) -> Table:

@@ -85,7 +85,7 @@ def _bundle(folders: dict[str, str]) -> str:
     parts = ["const modules = {};"]
     for name, folder in folders.items():
         text = _read(folder, name)
-        exported = ", ".join(found[1] for found in _EXPORT.findall(text))
+        exported = ", ".join(groups[1] for groups in _EXPORT.findall(text))
         text = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
         parts.append(f'modules["{name}"] = (() => {{\n{text}return {{ {exported} }};\n}})();')
     return "\n".join(parts) + "\n"

@@ -68,15 +68,15 @@ class Limits(NamedTuple):
 
 def _files() -> dict[str, tuple[bytes, str]]:
     """The files of the page, by their path in an address."""
-    found = {}
+    files = {}
     for item in (resources.files(__package__) / "page").iterdir():
         kind = mimetypes.guess_type(item.name)[0] or "application/octet-stream"
         if kind.startswith("text/") or item.name.endswith(".js"):
             kind += "; charset=utf-8"
-        found[f"/{item.name}"] = (item.read_bytes(), kind)
+        files[f"/{item.name}"] = (item.read_bytes(), kind)
     for path, name in _PAGES.items():
-        found[path] = found[f"/{name}"]
-    return found
+        files[path] = files[f"/{name}"]
+    return files
 
 
 class Explorer:
@@ -105,8 +105,8 @@ class Explorer:
             return _refused(HTTPStatus.MISDIRECTED_REQUEST, "the request is for another host")
         if asked.path in self._files and asked.path not in _PAGES:
             return _whole(*self._files[asked.path])  # the program itself is no secret
-        given = parse_qs(asked.query).get("token", [""])[0]
-        if not hmac.compare_digest(given.encode(), limits.token.encode()):
+        token = parse_qs(asked.query).get("token", [""])[0]
+        if not hmac.compare_digest(token.encode(), limits.token.encode()):
             return _refused(HTTPStatus.FORBIDDEN, "the token of the address is missing or wrong")
         if asked.path == _LIVE:
             origin = request.headers.get("Origin", "")
@@ -129,7 +129,7 @@ class Explorer:
         pictures = asyncio.create_task(self._pictures(session, awake, connection.send))
         saving: asyncio.Task[None] | None = None
         try:
-            await connection.send(_text({**session.hello(), **session.told()}))
+            await connection.send(_text({**session.hello(), **session.last_reports()}))
             awake.set()
             async for raw in connection:
                 message = _read(raw)
@@ -195,12 +195,12 @@ class Explorer:
         self, session: Session, stage: Stage, asked: int, send: Callable[[str], Awaitable[None]]
     ) -> str:
         """Return one picture as it is sent, or the reason why it is missing."""
-        loop, told = asyncio.get_running_loop(), time.monotonic()
+        loop, last_report = asyncio.get_running_loop(), time.monotonic()
 
         def progress(done: int, total: int | None) -> None:
-            nonlocal told
-            if total and time.monotonic() - told > _SELDOM:
-                told = time.monotonic()
+            nonlocal last_report
+            if total and time.monotonic() - last_report > _SELDOM:
+                last_report = time.monotonic()
                 share = _text({"progress": stage.kind, "share": round(done / total, 3)})
                 try:
                     loop.call_soon_threadsafe(self._tell, send, share)
@@ -239,15 +239,15 @@ class Explorer:
         """Make a file of a state, and send it."""
         loop = asyncio.get_running_loop()
         try:
-            found = await loop.run_in_executor(self._files_in, session.file, kind, state)
+            message = await loop.run_in_executor(self._files_in, session.file, kind, state)
         except InputError as error:
-            found = {"refused": str(error)}
+            message = {"refused": str(error)}
         except Stopped:
             return
         except Exception as error:
             traceback.print_exc()
-            found = {"refused": f"file: the file could not be written ({error!r})"}
-        await _sent(send, _text(found))
+            message = {"refused": f"file: the file could not be written ({error!r})"}
+        await _sent(send, _text(message))
 
 
 async def _ready(task: asyncio.Task[str], awake: asyncio.Event | None) -> bool:

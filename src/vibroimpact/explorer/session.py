@@ -103,22 +103,22 @@ class Session:
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
             history = self._next(message)
-            told = shown_as(history)
+            answer = shown_as(history)
         except (InputError, ArithmeticError) as error:
             # Numbers whose products are not finite are reported as a mistake.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
             path = message.get("path") if isinstance(message.get("path"), str) else None
             refused = {"refused": words, "path": path, "n": number}
-            return refused if message.get("do") != "open" else {**refused, **self.told()}
+            return refused if message.get("do") != "open" else {**refused, **self.last_reports()}
         self.history = history
         self.asked += 1
         self._dragging = message.get("dragging") is True
         self.number = number
         for kind in set(ON_DEMAND) - self.state.shown:
             self._sent.pop(kind, None)  # what is put away is made again when it is asked for
-        return {**told, "n": number}
+        return {**answer, "n": number}
 
-    def told(self) -> Message:
+    def last_reports(self) -> Message:
         """Return the state in the form in which it is sent to the page."""
         return shown_as(self.history)
 

@@ -69,8 +69,8 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     InputError
         If the rig is invalid or is not shaken by one sine, or if its isolator has no stiffness.
     """
-    given = one_sine(as_rig(rig), "amplitude")
-    oscillator, shaken = given.oscillator, given.sine
+    sine_rig = one_sine(as_rig(rig), "amplitude")
+    oscillator, shaken = sine_rig.oscillator, sine_rig.sine
     # Round numbers of the frequency that the page shows.
     turn = math.tau if has_no_units(oscillator) else 1.0
     natural = turn * oscillator.natural_frequency
@@ -83,7 +83,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
             )
     chosen = min(max(_short(_CHOSEN * natural) / turn, low), high)
     return PageState(
-        name or given.name or "rig",
+        name or sine_rig.name or "rig",
         oscillator,
         shaken.replace(frequency=chosen),
         (low, high),

@@ -52,7 +52,7 @@ def rig_facts(assembly: Assembly) -> dict[str, Any]:
 def rig_text(assembly: Assembly, shaking: Sequence[str] = ()) -> RenderableType:
     """Return the masses, the links and the stops of an assembly, and its natural frequencies."""
     turn = math.tau if unitless() else 1.0
-    found = ", ".join(plain(turn * one, 4) for one in assembly.natural_frequencies)
+    frequencies = ", ".join(plain(turn * one, 4) for one in assembly.natural_frequencies)
     rows = [
         *(_mass(assembly, name) for name in assembly.names),
         *(
@@ -62,7 +62,7 @@ def rig_text(assembly: Assembly, shaking: Sequence[str] = ()) -> RenderableType:
         ),
         *([("units", "none; frequencies are angular, ω = 2π f")] if unitless() else []),
         *([tuple(shaking)] if shaking else []),
-        ("natural frequencies", f"{found}{unit(' Hz')}"),
+        ("natural frequencies", f"{frequencies}{unit(' Hz')}"),
     ]
     return sheet(rows)
 
@@ -78,7 +78,7 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
 
     A rigid stop has the largest impulse of an impact, and no force.
     """
-    found, log = totals(motion), contacts(motion)
+    extrema, log = totals(motion), contacts(motion)
     assembly = assembly_of(motion)
     stops = {}
     for name, stop in assembly.stops.items():
@@ -87,19 +87,19 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
         if stop.stop.rigid:
             of["peak_impulse"] = float(log["contact_impulse"].values[mine].max(initial=0.0))
         else:
-            of["peak_force"] = float(found["peak_force"].sel(stop=name))
+            of["peak_force"] = float(extrema["peak_force"].sel(stop=name))
         stops[name] = of
     return {
         "masses": {
-            name: {what: float(found[what].sel(mass=name)) + 0.0 for what in _MASSES}
+            name: {what: float(extrema[what].sel(mass=name)) + 0.0 for what in _MASSES}
             for name in assembly.names
         },
         "links": {
-            str(name): {"peak_drift": float(found["peak_drift"].sel(link=name))}
-            for name in found["link"].values
+            str(name): {"peak_drift": float(extrema["peak_drift"].sel(link=name))}
+            for name in extrema["link"].values
         },
         "stops": stops,
-        "peak_transmitted_force": float(found["peak_transmitted_force"]),
+        "peak_transmitted_force": float(extrema["peak_transmitted_force"]),
     }
 
 
@@ -108,11 +108,11 @@ def assembly_of(data: xr.Dataset) -> Assembly:
     return Assembly.model_validate(parameters_of_rigs(data)[0]["assembly"])
 
 
-def largest_text(found: Mapping[str, Any]) -> RenderableType:
+def largest_text(values: Mapping[str, Any]) -> RenderableType:
     """Return largest values as tables: by mass, link and stop."""
     tables: list[RenderableType] = []
     for parts, (name, *columns) in _LARGEST.items():
-        rows = [{name.name: part, **one} for part, one in found[parts].items()]
+        rows = [{name.name: part, **one} for part, one in values[parts].items()]
         some = {key for row in rows for key in row}
         chosen = [one for one in columns if callable(one.value) or one.value in some]
         if rows:
@@ -137,20 +137,20 @@ def motion_facts(motion: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def motion_text(found: Mapping[str, Any]) -> RenderableType:
+def motion_text(summary: Mapping[str, Any]) -> RenderableType:
     """Return the facts of a motion as text."""
-    span = f"{plain(found['time'], 6)}{unit(' s')}"
-    if "cycles" in found:
-        span = f"{plain(found['cycles'])} cycles ({span})"
-    force = written("peak_transmitted_force", found["largest"]["peak_transmitted_force"])
+    span = f"{plain(summary['time'], 6)}{unit(' s')}"
+    if "cycles" in summary:
+        span = f"{plain(summary['cycles'])} cycles ({span})"
+    force = written("peak_transmitted_force", summary["largest"]["peak_transmitted_force"])
     parts: list[RenderableType] = [
         Text(f"Motion over {span}"),
         Text(),
-        largest_text(found["largest"]),
+        largest_text(summary["largest"]),
         Text(),
         Text(f"Largest force on the base: {force}"),
     ]
-    if count := found["simultaneous_impacts"]:
+    if count := summary["simultaneous_impacts"]:
         parts.append(Text(f"Note: the order of the stops decided {count} simultaneous impacts"))
     return Group(*parts)
 
@@ -164,20 +164,20 @@ _FLOOR = (
 
 def floor_facts(floor: xr.Dataset) -> dict[str, dict[str, float]]:
     """Return the largest value of the floor spectrum of each mass, and its natural period."""
-    found = {}
+    peaks = {}
     for mass in floor["mass"].values.tolist():
         curve = floor["spectral_acceleration"].sel(mass=mass)
         largest = curve.isel(natural_period=int(np.argmax(curve.values)))
-        found[mass] = {
+        peaks[mass] = {
             "spectral_acceleration": float(largest),
             "natural_period": float(largest["natural_period"]),
         }
-    return found
+    return peaks
 
 
-def floor_text(found: Mapping[str, Mapping[str, float]]) -> RenderableType:
+def floor_text(peaks: Mapping[str, Mapping[str, float]]) -> RenderableType:
     """Return the largest values of floor spectra as a table."""
-    rows = [{"mass": name, **one} for name, one in found.items()]
+    rows = [{"mass": name, **one} for name, one in peaks.items()]
     return table_of(rows, _FLOOR, "Largest of the floor spectrum, ζ = 0.05")
 
 
@@ -195,12 +195,12 @@ def steady_facts(motion: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def steady_text(found: Mapping[str, Any]) -> RenderableType:
+def steady_text(summary: Mapping[str, Any]) -> RenderableType:
     """Return the facts of a steady motion as text."""
-    period = f" of period {found['period']}" if found["period"] else ""
+    period = f" of period {summary['period']}" if summary["period"] else ""
     return Group(
-        Text(f"The motion that is reached from the start is {found['motion']}{period}"),
-        Text(f"Evidence: {found['evidence']}"),
+        Text(f"The motion that is reached from the start is {summary['motion']}{period}"),
+        Text(f"Evidence: {summary['evidence']}"),
         Text(),
-        largest_text(found["largest"]),
+        largest_text(summary["largest"]),
     )

@@ -42,7 +42,7 @@ _RESONANCES = (
 )
 
 
-def facts(data: xr.Dataset, found: MassJumps, advice: list[str]) -> dict[str, Any]:
+def facts(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> dict[str, Any]:
     """Return what a sweep of an assembly shows as nested plain values, in SI units."""
     return {
         **steps(data),
@@ -53,8 +53,8 @@ def facts(data: xr.Dataset, found: MassJumps, advice: list[str]) -> dict[str, An
             for stop in data["stop"].values
             for one in _ranges(data, _hit(data).sel(stop=stop))
         ],
-        "jumps": [one._asdict() for one in found.jumps],
-        "steep": [one._asdict() for one in found.steep],
+        "jumps": [one._asdict() for one in jumps.jumps],
+        "steep": [one._asdict() for one in jumps.steep],
         "sweeps_differ": _differing(data),
         "unsettled": _ranges(data, data["motion"] != "periodic"),
         "advice": advice,
@@ -87,14 +87,14 @@ def _largest(data: xr.Dataset) -> dict[str, Any]:
 def _resonances(data: xr.Dataset) -> list[dict[str, Any]]:
     """Return the local maxima of the largest displacement of each mass."""
     frequency = data["frequency"].values
-    found = []
+    resonances = []
     for mass in data["mass"].values:
         for direction in data["direction"].values:
             curve = data["peak_displacement"].sel(mass=mass, direction=direction).values
             curve = np.nan_to_num(curve)  # of holds that were given up
             least = _PROMINENCE * float(curve.max(initial=0.0))
             shaken = data["peak_acceleration"].sel(mass=mass, direction=direction).values
-            found += [
+            resonances += [
                 {
                     "mass": str(mass),
                     "direction": str(direction),
@@ -104,25 +104,25 @@ def _resonances(data: xr.Dataset) -> list[dict[str, Any]]:
                 }
                 for i in scipy.signal.find_peaks(curve, prominence=least or None)[0]
             ]
-    return found
+    return resonances
 
 
-def _jumps_table(found: list[dict[str, Any]]) -> RenderableType:
+def _jumps_table(jumps: list[dict[str, Any]]) -> RenderableType:
     """Return the jumps as a table, and where to look for their folds."""
-    if not found:
+    if not jumps:
         return Text("Jumps: none")
     columns = jump_columns(
         Column("mass", "mass", left=True),
-        *(_ends(found, name) for name in ("peak_displacement", "peak_acceleration")),
+        *(_ends(jumps, name) for name in ("peak_displacement", "peak_acceleration")),
     )
     hint = "vibroimpact branch locates the folds between these frequencies"
     title = "Jumps, of the mass that changes most"
-    return Group(table_of(found, columns, title), Text(hint))
+    return Group(table_of(jumps, columns, title), Text(hint))
 
 
-def _ends(found: list[dict[str, Any]], name: str) -> Column:
+def _ends(jumps: list[dict[str, Any]], name: str) -> Column:
     """Return the column of a quantity before and after each jump."""
-    numbers = [end for one in found for end in one[name]]
+    numbers = [end for one in jumps for end in one[name]]
     scale, words = unit_heading(_WORDS[name], VARIABLES[name].units, numbers)
     return Column(
         words,
@@ -133,11 +133,11 @@ def _ends(found: list[dict[str, Any]], name: str) -> Column:
 
 def _ranges(data: xr.Dataset, where: xr.DataArray) -> list[dict[str, Any]]:
     """Return the ranges of frequencies in which something is true, by direction."""
-    found = []
+    intervals = []
     for direction in data["direction"].values:
         for low, high in _runs(data, where.sel(direction=direction).values):
-            found.append({"direction": str(direction), "low": low, "high": high})
-    return found
+            intervals.append({"direction": str(direction), "low": low, "high": high})
+    return intervals
 
 
 def _runs(data: xr.Dataset, where: NDArray[np.bool_]) -> list[tuple[float, float]]:
@@ -160,24 +160,25 @@ def _differing(data: xr.Dataset) -> list[dict[str, float]]:
 
 def text(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> RenderableType:
     """Return what a sweep of an assembly shows as tables."""
-    found = facts(data, jumps, advice)
+    summary = facts(data, jumps, advice)
     parts: list[RenderableType] = [
         steps_text(data),
         Text(),
-        _largest_table("mass", found["largest"]["masses"]),
+        _largest_table("mass", summary["largest"]["masses"]),
     ]
-    if found["largest"]["stops"]:
-        parts += [Text(), _largest_table("stop", found["largest"]["stops"])]
+    if summary["largest"]["stops"]:
+        parts += [Text(), _largest_table("stop", summary["largest"]["stops"])]
     resonances: RenderableType = Text("Resonances: none in this range")
-    if found["resonances"]:
-        resonances = table_of(found["resonances"], _RESONANCES, "Resonances, by mass")
-    differ = ", ".join(forcings(one["low"], one["high"]) for one in found["sweeps_differ"])
-    if len(found["directions"]) < 2:
+    if summary["resonances"]:
+        resonances = table_of(summary["resonances"], _RESONANCES, "Resonances, by mass")
+    differ = ", ".join(forcings(one["low"], one["high"]) for one in summary["sweeps_differ"])
+    if len(summary["directions"]) < 2:
         differ = "not computed, because it needs both sweep directions"
     contact = [
-        (f"{one['stop']}, {one['direction']}", one["low"], one["high"]) for one in found["contact"]
+        (f"{one['stop']}, {one['direction']}", one["low"], one["high"])
+        for one in summary["contact"]
     ]
-    unsettled = [(one["direction"], one["low"], one["high"]) for one in found["unsettled"]]
+    unsettled = [(one["direction"], one["low"], one["high"]) for one in summary["unsettled"]]
     lines = [
         Text(f"Hysteresis: {differ or 'none'}"),
         ranges("Contact", contact),
@@ -185,11 +186,11 @@ def text(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> RenderableTyp
         *(Text(f"Note: {line}") for line in noted(data)),
         *(Text(f"Advice: {line}", style="yellow") for line in advice),
     ]
-    table = [_jumps_table(found["jumps"]), *steep_steps(jumps.steep)]
+    table = [_jumps_table(summary["jumps"]), *steep_steps(jumps.steep)]
     return Group(*parts, Text(), resonances, Text(), *table, Text(), *lines)
 
 
-def _largest_table(part: str, found: dict[str, Any]) -> RenderableType:
+def _largest_table(part: str, by_name: dict[str, Any]) -> RenderableType:
     """Return a table with two columns for each quantity: its largest value, and where it is."""
     rows = [
         {
@@ -197,9 +198,9 @@ def _largest_table(part: str, found: dict[str, Any]) -> RenderableType:
             **{key: one["value"] for key, one in values.items() if one},
             **{f"{key} at": place(one) for key, one in values.items() if one and one["value"]},
         }
-        for name, values in found.items()
+        for name, values in by_name.items()
     ]
     columns = [Column(part, part, left=True)]
-    for key in dict.fromkeys(key for values in found.values() for key in values):
+    for key in dict.fromkeys(key for values in by_name.values() for key in values):
         columns += [Column(_WORDS[key], key), Column("", f"{key} at", left=True)]
     return table_of(rows, columns, f"Largest, by {part}")

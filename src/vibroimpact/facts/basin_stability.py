@@ -46,8 +46,8 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table, of the motions with the largest shares."""
-    found = facts(data)
-    along = found["parameter"]
+    summary = facts(data)
+    along = summary["parameter"]
     motions = [
         {
             "number": number,
@@ -58,7 +58,7 @@ def text(data: xr.Dataset) -> RenderableType:
             "largest": max(one["share"]),
             **{end: one[end][one["share"].index(max(one["share"]))] for end in _INTERVAL},
         }
-        for number, one in enumerate(found["motions"], 1)
+        for number, one in enumerate(summary["motions"], 1)
         if (kinds := [f"{kind['motion']} {kind['period'] or ''}".strip() for kind in one["kinds"]])
     ]
     chosen = sorted(motions, key=lambda one: -one["largest"])[:_MOST]
@@ -71,7 +71,7 @@ def text(data: xr.Dataset) -> RenderableType:
         Column("95% interval of the largest", _INTERVAL, "{:.1%}"),
     )
     table = table_of(sorted(chosen, key=lambda one: one["number"]), columns)
-    lines = [f"states without a result: {found['given_up']}"]
+    lines = [f"states without a result: {summary['given_up']}"]
     if len(motions) > _MOST:
         more = len(motions) - _MOST
         lines.insert(0, f"and {more} motion{'s' if more > 1 else ''} with smaller shares")

@@ -64,20 +64,20 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table and a line about the borders."""
-    found = facts(data)
-    motions = [{"number": i, **one} for i, one in enumerate(found["motions"], 1)]
+    summary = facts(data)
+    motions = [{"number": i, **one} for i, one in enumerate(summary["motions"], 1)]
     columns = [*_COLUMNS, *([_BORDER] if "border_distance" in data else [])]
     if "mass" in data.dims:
         for one in motions:
             one["displacement_excursion"] = max(one["displacement_excursion"].values())
         columns[_EXCURSION] = columns[_EXCURSION]._replace(name="largest excursion")
     table = table_of(motions, columns)
-    lines = [f"{found['lattice']}; states without a result: {found['given_up']}"]
-    if math.isfinite(found["uncertainty_exponent"]):
+    lines = [f"{summary['lattice']}; states without a result: {summary['given_up']}"]
+    if math.isfinite(summary["uncertainty_exponent"]):
         lines += [
-            f"uncertainty exponent {found['uncertainty_exponent']:.3f} ± "
-            f"{found['uncertainty_exponent_error']:.3f} (1 for a smooth border)",
-            f"basin entropy {found['basin_entropy']:.3f}, border entropy "
-            f"{found['border_entropy']:.3f}",
+            f"uncertainty exponent {summary['uncertainty_exponent']:.3f} ± "
+            f"{summary['uncertainty_exponent_error']:.3f} (1 for a smooth border)",
+            f"basin entropy {summary['basin_entropy']:.3f}, border entropy "
+            f"{summary['border_entropy']:.3f}",
         ]
     return Group(Text(), table, Text(), Text("\n".join(lines)))

@@ -12,7 +12,7 @@ from rich.text import Text
 from vibroimpact.model.written_units import unitless
 
 
-def facts(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> dict[str, Any]:
+def facts(kind: str, names: tuple[str, str], curves: dict[str, xr.Dataset]) -> dict[str, Any]:
     """Return the curves with their cusps and how each ended, in SI units."""
     return {
         "bifurcation": kind,
@@ -24,16 +24,16 @@ def facts(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> di
                 "ended_low": data.attrs["ended_low"],
                 "ended_high": data.attrs["ended_high"],
             }
-            for data in found.values()
+            for data in curves.values()
         ],
     }
 
 
-def text(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> RenderableType:
+def text(kind: str, names: tuple[str, str], curves: dict[str, xr.Dataset]) -> RenderableType:
     """Return the same as lines."""
-    plural = "s" if len(found) > 1 else ""
-    lines = [Text(), Text(f"{len(found)} {kind} curve{plural}", style="bold")]
-    for name, data in found.items():
+    plural = "s" if len(curves) > 1 else ""
+    lines = [Text(), Text(f"{len(curves)} {kind} curve{plural}", style="bold")]
+    for name, data in curves.items():
         lines.append(
             Text(
                 f"  {name}: {data.sizes['point']} point{'' if data.sizes['point'] == 1 else 's'}; "

@@ -59,8 +59,8 @@ def _ranges(one: xr.Dataset) -> list[dict[str, Any]]:
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the ranges as tables: the widest of many, and all in which nothing was decided."""
-    told = facts(data)
-    name = told["parameter"]
+    summary = facts(data)
+    name = summary["parameter"]
     columns = (
         Column("motion", lambda one: _kind(one["motion"], one["period"]), left=True),
         *([Column("contacts", _contacts, left=True)] if data.sizes["stop"] else []),
@@ -69,14 +69,14 @@ def text(data: xr.Dataset) -> RenderableType:
         Column("largest exponent", "largest_exponent", units="1/s"),
     )
     parts: list[RenderableType] = []
-    for start, ranges in told["starts"].items():
+    for start, ranges in summary["starts"].items():
         parts += [Text(), Text(start[:1].upper() + start[1:], style="bold")]
         widest = sorted(ranges, key=lambda one: -one["values"])[:_MOST]
         chosen = [one for one in ranges if one in widest or one["motion"] == "undecided"]
         parts.append(table_of(chosen, columns))
         if more := len(ranges) - len(chosen):
             parts.append(Text(f"and {more} narrower range{'s' if more > 1 else ''}"))
-    every = [one for ranges in told["starts"].values() for one in ranges]
+    every = [one for ranges in summary["starts"].values() for one in ranges]
     if data.sizes["stop"] and not any(any(one["contacts"].values()) for one in every):
         parts.append(Text(f"\nNote: {_UNTOUCHED}"))
     return Group(*parts)

@@ -26,7 +26,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     multipliers = np.stack(
         [data[f"bifurcation_multiplier_{part}"].values for part in ("real", "imag")], axis=-1
     )
-    found = [
+    entries = [
         {**row, "turns": bool(row["turns"]), "eta_d": eta, "multipliers": pairs}
         for row, eta, pairs in zip(
             rows, np.asarray(eta_d).tolist(), multipliers.tolist(), strict=True
@@ -46,15 +46,15 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
                 "ended_high": data.attrs[f"{prefix}ended_high"],
             }
         )
-    return {"parameter": data.attrs["parameter"], "branches": branches, "bifurcations": found}
+    return {"parameter": data.attrs["parameter"], "branches": branches, "bifurcations": entries}
 
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the branches and their bifurcations as tables."""
-    told = facts(data)
-    columns = _columns(data, told["parameter"])
+    summary = facts(data)
+    columns = _columns(data, summary["parameter"])
     parts: list[RenderableType] = []
-    for one in told["branches"]:
+    for one in summary["branches"]:
         number = one["branch"]
         plural = "" if one["points"] == 1 else "s"
         title = f"Branch {number}: period {one['period']}, {one['points']} orbit{plural}"
@@ -63,7 +63,7 @@ def text(data: xr.Dataset) -> RenderableType:
             parts.append(Text("the branch is a closed curve"))
         else:
             parts.append(Text(f"beginning: {one['ended_low']}; end: {one['ended_high']}"))
-        mine = [b for b in told["bifurcations"] if b["branch"] == number]
+        mine = [b for b in summary["bifurcations"] if b["branch"] == number]
         parts.append(table_of(mine, columns) if mine else Text("no bifurcation"))
     return Group(*parts)
 
@@ -73,12 +73,12 @@ def bifurcations(data: xr.Dataset) -> RenderableType:
 
     A bifurcation at which several branches meet is listed once.
     """
-    told = facts(data)
-    name, found = told["parameter"], told["bifurcations"]
-    if not found:
+    summary = facts(data)
+    name, entries = summary["parameter"], summary["bifurcations"]
+    if not entries:
         return Text("\nNo bifurcation on the branches")
     kind, *others, _, _ = _columns(data, name)
-    rows = sorted(found, key=lambda one: float(one["value"]))
+    rows = sorted(entries, key=lambda one: float(one["value"]))
     at_once = {
         (
             one["kind"],

@@ -208,14 +208,14 @@ def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
 def _which(data: xr.Dataset, front: int) -> str:
     """How many designs keep the limits, and how many of them no other one beats."""
     best = f"{front} {_be(front)} not dominated by another design in displacement and acceleration"
-    told = _limits_facts(data)
-    if not told:
+    limit_facts = _limits_facts(data)
+    if not limit_facts:
         return best
     limits = " and ".join(
         f"{_words(name)} {pretty(value, in_units(VARIABLES[name.partition('.')[0]].units))}"
-        for name, value in told["limits"].items()
+        for name, value in limit_facts["limits"].items()
     )
-    count = told["designs_within_limits"]
+    count = limit_facts["designs_within_limits"]
     kept = f"{count or 'none'} {_be(count or 1)} within {limits}"
     return f"{kept}, and of these {best}" if count else kept
 
@@ -234,8 +234,8 @@ def _enough(rig: System, gap: xr.Dataset) -> str:
     lacking = {side: by for side, by in short.items() if by > 0.0}
     if not lacking:
         return f"{_gaps(rig).capitalize()} is sufficient."
-    told = " and ".join(f"{_length(by)} short on the {side}" for side, by in lacking.items())
-    return f"{_gaps(rig).capitalize()} is {told}."
+    shortfalls = " and ".join(f"{_length(by)} short on the {side}" for side, by in lacking.items())
+    return f"{_gaps(rig).capitalize()} is {shortfalls}."
 
 
 def _enough_for_share(rig: System, gap: xr.Dataset, share: float) -> str:
@@ -256,10 +256,10 @@ def _enough_for_share(rig: System, gap: xr.Dataset, share: float) -> str:
         axis=0,
     )
     short = float(quantiles(beyond, [share], 0)[0])
-    told = "sufficient" if short <= 0.0 else f"{_length(short)} short"
+    words = "sufficient" if short <= 0.0 else f"{_length(short)} short"
     hits = int((beyond > 0.0).sum())
     return (
-        f"{_gaps(rig).capitalize()} is {told} for the {_percent(share)} fractile; the mass hits a "
+        f"{_gaps(rig).capitalize()} is {words} for the {_percent(share)} fractile; the mass hits a "
         f"stop under {hits or 'none'} of the {len(beyond)} record{'' if len(beyond) == 1 else 's'}."
     )
 

@@ -162,11 +162,11 @@ def _pressed(response: xr.Dataset) -> str:
     pressed = {side: force for side, force in forces.items() if force > 0.0}
     if not pressed:
         return ""
-    told = " and ".join(
+    stop_text = " and ".join(
         f"the {side} stop with at most {written('peak_force', force)}"
         for side, force in pressed.items()
     )
-    return f"The mass presses {told} from the start; no impact follows."
+    return f"The mass presses {stop_text} from the start; no impact follows."
 
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:

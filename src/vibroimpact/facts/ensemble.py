@@ -32,13 +32,13 @@ _FRACTILES = (
 
 
 def facts(
-    data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
+    data: xr.Dataset, distributions: dict[str, str], indices: dict[str, xr.Dataset]
 ) -> dict[str, Any]:
     """Return fractiles of the peaks over all frequencies, in SI units, and the indices."""
     peaks = _peaks(data)
     touches = in_contact(data).any(("direction", "frequency"))
     return {
-        "uncertain": given,
+        "uncertain": distributions,
         "samples": data.sizes["sample"],
         "shares": list(_SHARES),
         "peaks": {
@@ -48,12 +48,12 @@ def facts(
         "sensitivity": {
             name: {
                 str(one): {
-                    order: float(found[order].sel(uncertain_parameter=one))
+                    order: float(dataset[order].sel(uncertain_parameter=one))
                     for order in ("first_order", "total_order")
                 }
-                for one in found["uncertain_parameter"].values
+                for one in dataset["uncertain_parameter"].values
             }
-            for name, found in indices.items()
+            for name, dataset in indices.items()
         },
     }
 
@@ -64,28 +64,30 @@ def _peaks(data: xr.Dataset) -> dict[str, Any]:
     if "mass" in data.dims:  # of each mass and each stop
         every = [one.partition(".") for one in quantities(data)]
         names = [f"{name}.{part}" for name, _, part in every if part and name in _PEAKS]
-    found = {}
+    peaks = {}
     for name in names:
         values = quantity(data, name)
         if np.isinf(values).any():  # of a rigid stop
             name = name.replace("peak_force", "peak_impulse")
             values = quantity(data, name)
-        found[name] = values.max(("direction", "frequency")).dropna("sample").values
-    return {name: values for name, values in found.items() if len(values)}
+        peaks[name] = values.max(("direction", "frequency")).dropna("sample").values
+    return {name: values for name, values in peaks.items() if len(values)}
 
 
-def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]) -> RenderableType:
+def text(
+    data: xr.Dataset, distributions: dict[str, str], indices: dict[str, xr.Dataset]
+) -> RenderableType:
     """Return the same as sentences and tables."""
-    told = facts(data, given, indices)
-    spread = ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in given.items())
+    summary = facts(data, distributions, indices)
+    spread = ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in distributions.items())
     parts: list[RenderableType] = [
         Text(),
-        Text(f"{told['samples']} rig{'' if told['samples'] == 1 else 's'}: {spread}"),
-        Text(f"{100.0 * told['touching']:.3g} % of them touch a stop at some frequency."),
+        Text(f"{summary['samples']} rig{'' if summary['samples'] == 1 else 's'}: {spread}"),
+        Text(f"{100.0 * summary['touching']:.3g} % of them touch a stop at some frequency."),
         Text(),
-        table_of([_fractiles(*one) for one in told["peaks"].items()], _FRACTILES),
+        table_of([_fractiles(*one) for one in summary["peaks"].items()], _FRACTILES),
     ]
-    for name, orders in told["sensitivity"].items():
+    for name, orders in summary["sensitivity"].items():
         rows = [{"parameter": one.replace("_", " "), **shares} for one, shares in orders.items()]
         rows.sort(key=lambda one: -one["total_order"])
         parts += [Text(), table_of(rows, _orders(_PEAKS[name]))]

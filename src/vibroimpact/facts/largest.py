@@ -78,13 +78,13 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     """
     known, at_rest, own = set(quantities(data)), base_at_rest(data), own_outputs(data)
     lines = [one for one in _LINES if one.quantity in known and (at_rest or not one.under_a_force)]
-    found: dict[str, Any] = {}
+    extremes: dict[str, Any] = {}
     for name, sign in [*((one.quantity, one.sign) for one in lines), *((one, 1.0) for one in own)]:
         one = largest(quantity(data, name), sign)
         of_stop = name not in own and "." in name
         if one and (not of_stop or 0.0 < one["value"] < math.inf):
-            found[name] = one
-    return found
+            extremes[name] = one
+    return extremes
 
 
 def text(data: xr.Dataset) -> RenderableType:

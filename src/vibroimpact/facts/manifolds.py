@@ -43,11 +43,11 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the saddles as a table, and the curves as lines."""
-    found = facts(data)
-    saddles, curves = found["saddles"], found["curves"]
+    summary = facts(data)
+    saddles, curves = summary["saddles"], summary["curves"]
     if not saddles:
         none = "\nno saddle was found on the borders between basins"
-        return Text("\n".join([none, *found["notes"]]))
+        return Text("\n".join([none, *summary["notes"]]))
     table = table_of([{"number": i, **one} for i, one in enumerate(saddles, 1)], _COLUMNS)
     lines = []
     for kind in ("stable", "unstable"):
@@ -56,11 +56,11 @@ def text(data: xr.Dataset) -> RenderableType:
         length = sum(one["length"] for one in mine)
         lines.append(f"{kind} manifolds, total length {length:.3g} window widths:")
         lines += [f"  {count} of {len(mine)}: {why}" for why, count in ends.most_common()]
-    crossed = found["crossings"]
+    crossed = summary["crossings"]
     lines.append(
         f"stable and unstable manifolds cross {'once' if crossed == 1 else f'{crossed} times'}, so "
         "motions look chaotic before they settle"
         if crossed
         else "stable and unstable manifolds do not cross"
     )
-    return Group(Text(), table, Text(), Text("\n".join([*lines, *found["notes"]])))
+    return Group(Text(), table, Text(), Text("\n".join([*lines, *summary["notes"]])))

@@ -94,19 +94,19 @@ Found = dict[float, dict[str, xr.Dataset]]
 """Motions by name, by frequency."""
 
 
-def facts(found: Found) -> list[dict[str, Any]]:
+def facts(by_frequency: Found) -> list[dict[str, Any]]:
     """Return kind, extremes and contacts of the motions, in SI units."""
     return [
         {"frequency": hertz, "name": name, **_facts(data)}
-        for hertz, motions in found.items()
+        for hertz, motions in by_frequency.items()
         for name, data in motions.items()
     ]
 
 
-def text(found: Found) -> RenderableType:
+def text(by_frequency: Found) -> RenderableType:
     """Return the same as tables."""
     parts: list[RenderableType] = []
-    for hertz, motions in found.items():
+    for hertz, motions in by_frequency.items():
         many = f"{len(motions)} motions coexist" if len(motions) > 1 else _only(motions)
         parts += [Text(), Text(f"{forcing(hertz, 10)}: {many}", style="bold")]
         for name, data in motions.items():
@@ -114,11 +114,11 @@ def text(found: Found) -> RenderableType:
     return Group(*parts)
 
 
-def columns(found: Found, most: int) -> dict[str, dict[str, xr.Dataset]]:
+def columns(by_frequency: Found, most: int) -> dict[str, dict[str, xr.Dataset]]:
     """Return the columns of a page: motions of one frequency (so many at most), or frequencies."""
-    if len(found) > 1:
-        return {forcing(hertz): motions for hertz, motions in found.items()}
-    ((hertz, motions),) = found.items()
+    if len(by_frequency) > 1:
+        return {forcing(hertz): motions for hertz, motions in by_frequency.items()}
+    ((hertz, motions),) = by_frequency.items()
     named = list(motions.items())[:most]
     return {f"{forcing(hertz)}, {name}": {name: data} for name, data in named}
 
@@ -153,8 +153,8 @@ def _numbers(data: xr.Dataset) -> list[str]:
 
 def _by_stop(data: xr.Dataset, name: str) -> str:
     """Return a number of a motion with its unit, or that of each stop."""
-    found = plain_values(data[name])
-    values = found if isinstance(found, dict) else {"": found}
+    numbers = plain_values(data[name])
+    values = numbers if isinstance(numbers, dict) else {"": numbers}
     finite = [one for one in values.values() if math.isfinite(one)]
     return ", ".join(
         f"{written(name, one, like=finite or (one,))} {stop}".rstrip()

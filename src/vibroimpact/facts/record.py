@@ -40,7 +40,7 @@ def facts(record: Record, spectrum: xr.Dataset) -> dict[str, Any]:
 
 def text(record: Record, spectrum: xr.Dataset) -> RenderableType:
     """Return the same as a table."""
-    found = facts(record, spectrum)
+    summary = facts(record, spectrum)
     about = record.about
     peak = f"{plain(record.peak, 6)} m/s² = {plain(record.peak / GRAVITY, 5)} g"
     rows = [
@@ -48,7 +48,7 @@ def text(record: Record, spectrum: xr.Dataset) -> RenderableType:
         *((name, getattr(about, name) or "not stated") for name in ("station", "component")),
         (
             "samples",
-            f"{found['samples']} × {pretty(record.step, TIME)}",
+            f"{summary['samples']} × {pretty(record.step, TIME)}",
             f"{plain(record.duration, 7)} s",
         ),
         ("peak", peak, f"at {plain(record.peak_time, 7)} s"),
@@ -58,7 +58,7 @@ def text(record: Record, spectrum: xr.Dataset) -> RenderableType:
                 f"pseudo-acceleration at most {plain(one['pseudo_acceleration'], 5)} m/s²",
                 f"at T = {plain(one['period'], 4)} s",
             )
-            for one in found["largest"]
+            for one in summary["largest"]
         ),
         *(("" if i else "note", note) for i, note in enumerate(about.notes)),
     ]

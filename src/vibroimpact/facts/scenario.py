@@ -17,35 +17,35 @@ def meaning(label: str) -> str:
     return next(one.meaning for one in Scenario if one.label == label)
 
 
-def facts(found: Classification) -> dict[str, Any]:
+def facts(verdict: Classification) -> dict[str, Any]:
     """Return the scenario, its evidence, and the thresholds that matter."""
-    used = found.thresholds
+    used = verdict.thresholds
     return {
-        "scenario": found.scenario,
-        "meaning": meaning(found.scenario),
-        "confidence": found.confidence,
-        "evidence": found.evidence.split("; "),
+        "scenario": verdict.scenario,
+        "meaning": meaning(verdict.scenario),
+        "confidence": verdict.confidence,
+        "evidence": verdict.evidence.split("; "),
         "alternatives": [
             {"threshold": name, "value": value, "scenario": other}
-            for (name, value), other in found.alternatives.items()
+            for (name, value), other in verdict.alternatives.items()
         ],
         "thresholds": {name: getattr(used, name) for name in used.names()},
-        "features": found.features,
+        "features": verdict.features,
     }
 
 
-def text(found: Classification) -> RenderableType:
+def text(verdict: Classification) -> RenderableType:
     """Return the same for reading."""
-    lines = sheet(("", line) for line in found.evidence.split("; "))
+    lines = sheet(("", line) for line in verdict.evidence.split("; "))
     others = [
         Text(f"  with --{name} {value:g}: {other}")
-        for (name, value), other in found.alternatives.items()
+        for (name, value), other in verdict.alternatives.items()
     ]
     return Group(
-        Text(f"{found.scenario}: {meaning(found.scenario)}", style="bold"),
+        Text(f"{verdict.scenario}: {meaning(verdict.scenario)}", style="bold"),
         lines,
         Text(
-            f"Confidence {found.confidence:.0%}: this share of the halved and doubled thresholds "
+            f"Confidence {verdict.confidence:.0%}: this share of the halved and doubled thresholds "
             "gives the same scenario (over the swept frequencies)"
         ),
         *others,

@@ -45,16 +45,16 @@ def facts(data: xr.Dataset, border: xr.Dataset | None) -> dict[str, Any]:
 
 def text(data: xr.Dataset, refine: int) -> RenderableType:
     """Return the shares as a table; the first grid was refined so often."""
-    found = facts(data, None)
+    summary = facts(data, None)
     kinds = {one.label: one.meaning for one in Scenario}
     shares = [
         {"label": label, "share": share, "meaning": kinds[label]}
-        for label, share in found["shares"].items()
+        for label, share in summary["shares"].items()
     ]
     rows, columns = (((size - 1) >> refine) + 1 for size in data["scenario"].shape)
     refined = {0: "", 1: ", refined once"}.get(refine, f", refined {refine} times")
     line = (
-        f"{columns} × {rows} nodes{refined}: {found['computed']} of {found['nodes']} computed; "
+        f"{columns} × {rows} nodes{refined}: {summary['computed']} of {summary['nodes']} computed; "
         "shares of the scenarios:"
     )
     return Group(Text(line), table_of(shares, _SHARES))

@@ -30,43 +30,43 @@ _PEAKS = (
 )
 
 
-def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
+def facts(data: xr.Dataset, features: Features, advice: list[str]) -> dict[str, Any]:
     """Return what a sweep shows as nested plain values, frequencies in Hz."""
     return {
         **steps(data),
-        "peaks": [peak._asdict() for peak in found.peaks],
+        "peaks": [peak._asdict() for peak in features.peaks],
         **{
             name: [
                 {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
                 for jump in some
             ]
-            for name, some in (("jumps", found.jumps), ("steep", found.steep))
+            for name, some in (("jumps", features.jumps), ("steep", features.steep))
         },
-        "hysteresis": [item._asdict() for item in found.hysteresis],
-        "unsettled": [item._asdict() for item in found.unsettled],
-        "contact": [item._asdict() for item in found.contact],
+        "hysteresis": [item._asdict() for item in features.hysteresis],
+        "unsettled": [item._asdict() for item in features.unsettled],
+        "contact": [item._asdict() for item in features.contact],
         "largest": largest.facts(data),
         "advice": advice,
     }
 
 
-def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType:
+def text(data: xr.Dataset, features: Features, advice: list[str]) -> RenderableType:
     """Return what a sweep shows as tables."""
     contact, unsettled = (
         [(one.direction, one.low, one.high) for one in some]
-        for some in (found.contact, found.unsettled)
+        for some in (features.contact, features.unsettled)
     )
     parts: list[RenderableType] = [
         steps_text(data),
         Text(),
         largest.text(data),
         Text(),
-        _peaks(found),
+        _peaks(features),
         Text(),
-        _jumps(found),
-        *steep_steps(found.steep),
+        _jumps(features),
+        *steep_steps(features.steep),
         Text(),
-        _hysteresis(data, found),
+        _hysteresis(data, features),
         ranges(f"Contact with a {stop_word(data)}", contact),
         ranges("Motion not settled", unsettled),
     ]
@@ -76,11 +76,11 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
     return Group(*parts)
 
 
-def _peaks(found: Features) -> RenderableType:
+def _peaks(features: Features) -> RenderableType:
     rows = [
         {**peak._asdict(), "symbol": symbol, "kind": _kind(peak)}
         for curve, symbol in _CURVES.items()
-        for peak in found.peaks
+        for peak in features.peaks
         if peak.curve == curve
     ]
     return table_of(rows, _PEAKS, "Resonances")
@@ -91,23 +91,23 @@ def _kind(peak: Peak) -> str:
     return f"{kind}, at the end of the range" if peak.at_end else kind
 
 
-def _jumps(found: Features) -> RenderableType:
-    if not found.jumps:
+def _jumps(features: Features) -> RenderableType:
+    if not features.jumps:
         return Text("Jumps: none")
     columns = jump_columns(
         Column("η_a", lambda one: " → ".join(plain(end, 4) for end in one["eta_a"]), left=True),
         Column("η_d", lambda one: " → ".join(plain(end, 4) for end in one["eta_d"]), left=True),
     )
-    rows = [{**jump._asdict(), "upward": jump.upward} for jump in found.jumps]
+    rows = [{**jump._asdict(), "upward": jump.upward} for jump in features.jumps]
     return table_of(rows, columns, "Jumps")
 
 
-def steep_steps(found: Sequence[Jump | MassJump]) -> list[RenderableType]:
+def steep_steps(jumps: Sequence[Jump | MassJump]) -> list[RenderableType]:
     """Return lines on the steps that may be smooth, by direction; none if there are no such."""
-    if not found:
+    if not jumps:
         return []
     places = [
-        (one.direction, min(one.before, one.after), max(one.before, one.after)) for one in found
+        (one.direction, min(one.before, one.after), max(one.before, one.after)) for one in jumps
     ]
     return [Text(), ranges("Steep, but not proved to be a jump; refine --step", places)]
 
@@ -129,13 +129,13 @@ def jump_columns(*ends: Column) -> tuple[Column, ...]:
     )
 
 
-def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
+def _hysteresis(data: xr.Dataset, features: Features) -> RenderableType:
     if data.sizes["direction"] < 2:
         return Text("Hysteresis: not computed, because it needs both sweep directions")
-    if not found.hysteresis:
+    if not features.hysteresis:
         return Text("Hysteresis: none")
     lines = []
-    for item in found.hysteresis:
+    for item in features.hysteresis:
         notes = [f"{item.side} ({item.order})"]
         if item.below is None or item.above is None:
             notes.append("continues beyond the swept range")
@@ -158,17 +158,17 @@ def steps_text(data: xr.Dataset) -> RenderableType:
     """Return the same as a line."""
     about = steps(data)
     low, high, count = about["frequencies"].values()
-    found = f"{count} frequencies from {forcings(low, high)}"
-    found = found if count > 1 else f"1 frequency, {forcing(low)}"
-    return Text(f"{found}, {' and '.join(about['directions'])}")
+    frequency_text = f"{count} frequencies from {forcings(low, high)}"
+    frequency_text = frequency_text if count > 1 else f"1 frequency, {forcing(low)}"
+    return Text(f"{frequency_text}, {' and '.join(about['directions'])}")
 
 
-def ranges(title: str, found: Sequence[tuple[str, float, float]]) -> RenderableType:
+def ranges(title: str, intervals: Sequence[tuple[str, float, float]]) -> RenderableType:
     """Return ranges of frequencies (Hz), each with the name of its group, as lines of a group."""
-    if not found:
+    if not intervals:
         return Text(f"{title}: at no frequency")
     groups: dict[str, list[tuple[float, float]]] = {}
-    for name, low, high in found:
+    for name, low, high in intervals:
         groups.setdefault(name, []).append((low, high))
     return Text("\n".join([title, *(f"  {name}: {_spans(one)}" for name, one in groups.items())]))
 

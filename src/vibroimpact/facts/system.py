@@ -28,7 +28,7 @@ def facts(system: System) -> dict[str, Any]:
     data = modes(several_masses_only(system))
     names = data["mass"].values.tolist()
     by_mode = ("natural_frequency", "modal_damping_ratio", "effective_mass")
-    found = [
+    mode_rows = [
         {
             **{name: float(one[name]) for name in by_mode},
             _SHAPE: dict(zip(names, one[_SHAPE].values.tolist(), strict=True)),
@@ -37,19 +37,19 @@ def facts(system: System) -> dict[str, Any]:
     ]
     moved = {name: float(rest.get(name, 0.0)) for name in names}  # type: ignore[union-attr]
     return {
-        "modes": found,
+        "modes": mode_rows,
         "equilibrium": {"displacement": moved},
         "notes": str(data.attrs.get("notes", "")).splitlines(),
     }
 
 
-def text(found: Mapping[str, Any]) -> RenderableType:
+def text(summary: Mapping[str, Any]) -> RenderableType:
     """Return the modes and the displacements of the equilibrium as tables."""
-    rest = found["equilibrium"]["displacement"]
-    if "modes" not in found:
+    rest = summary["equilibrium"]["displacement"]
+    if "modes" not in summary:
         return Group(Text(), Text(f"Static equilibrium: u = {written('displacement', rest)}"))
     turn = math.tau if unitless() else 1.0
-    count = len(found["modes"])
+    count = len(summary["modes"])
     rows = [
         {
             "mode": i + 1,
@@ -59,13 +59,13 @@ def text(found: Mapping[str, Any]) -> RenderableType:
             else one["modal_damping_ratio"],
             "effective_mass": one["effective_mass"],
         }
-        for i, one in enumerate(found["modes"])
+        for i, one in enumerate(summary["modes"])
     ]
     shapes = [
         {
             "mass": name,
             "rest": value,
-            **{str(i + 1): one[_SHAPE][name] for i, one in enumerate(found["modes"])},
+            **{str(i + 1): one[_SHAPE][name] for i, one in enumerate(summary["modes"])},
         }
         for name, value in rest.items()
     ]
@@ -94,7 +94,7 @@ def text(found: Mapping[str, Any]) -> RenderableType:
         parts.append(table_of(shapes, moved, "Static equilibrium"))
     else:
         parts.append(Text("Static equilibrium: u = 0 of all masses"))
-    notes = [Text(f"Note: {note}") for note in found["notes"]]
+    notes = [Text(f"Note: {note}") for note in summary["notes"]]
     return Group(*parts, *([Text()] if notes else []), *notes)
 
 

@@ -30,14 +30,14 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     """
     begins = (data["event_contact"] >= 1).values
     components = zip(data["component"].values, data["final_state"].values.tolist(), strict=True)
-    found: dict[str, Any] = {
+    summary: dict[str, Any] = {
         "time": float(data["time"].values[-1]),
         "final_state": {str(name): value + 0.0 for name, value in components},  # no negative zeros
         "contacts": _counts(data, begins),
         **status_facts(data),
     }
     if "cycle" not in data:
-        return found
+        return summary
     last = float(data["cycle"].values[-1])
     lately = min(_LAST_CYCLES, last)
     frequency = motion_parameters(data)["frequency"]
@@ -45,7 +45,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     counts = _counts(data, begins & (when > last - lately))
     per_cycle = {stop: count / lately for stop, count in counts.items()}
     contacts = {"over_cycles": lately, "per_cycle": per_cycle}
-    return {"frequency": frequency, "cycles": last, **found, "contacts": contacts}
+    return {"frequency": frequency, "cycles": last, **summary, "contacts": contacts}
 
 
 def _counts(data: xr.Dataset, begins: NDArray[np.bool_]) -> dict[str, int]:
@@ -63,8 +63,8 @@ def _deformable(data: xr.Dataset) -> list[str]:
 
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as lines."""
-    found = facts(data)
-    state, contacts = found["final_state"], found["contacts"]
+    summary = facts(data)
+    state, contacts = summary["final_state"], summary["contacts"]
     touched = [f"{side} stop" for side in SIDES if state[f"touching.{side}"]]
     touching = "both stops" if len(touched) == 2 else "".join(touched) or "none"
     rows = [
@@ -74,11 +74,11 @@ def text(data: xr.Dataset) -> RenderableType:
             for side in _deformable(data)
         ),
     ]
-    span = f"{plain(found['time'], 6)}{unit(' s')}"
+    span = f"{plain(summary['time'], 6)}{unit(' s')}"
     over = ""
-    if "cycles" in found:
+    if "cycles" in summary:
         rows.append(("phase", f"{plain(state['phase'], 6)} rad"))
-        span = f"{plain(found['cycles'])} cycles ({span})"
+        span = f"{plain(summary['cycles'])} cycles ({span})"
         over = f" per cycle, over the last {plain(contacts['over_cycles'])}"
         contacts = contacts["per_cycle"]
     counts = ", ".join(f"{plain(contacts.get(side, 0))} {side}" for side in SIDES)

@@ -52,8 +52,8 @@ def accelerogram(
         raise InputError(f"record: an object of type {type(record).__name__}; pass a Record")
     count = 1 if spectrum is None else 2
     what = "the record" if spectrum is None else "the record and its spectrum"
-    given = panels(axes, count, what, (7.2, 2.8 * count + 0.4), title, sharex=False)
-    ax = given[0]
+    panel_axes = panels(axes, count, what, (7.2, 2.8 * count + 0.4), title, sharex=False)
+    ax = panel_axes[0]
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     ax.plot(record.time, record.acceleration, color="black", linewidth=0.7, zorder=3)
     at = int(np.abs(record.acceleration).argmax())
@@ -65,5 +65,5 @@ def accelerogram(
     ax.set_ylabel("base acceleration\n$A_t$ (m/s²)")
     also_in_g(ax)
     if spectrum is not None:
-        response_spectra(spectrum, given[1])
-    return given
+        response_spectra(spectrum, panel_axes[1])
+    return panel_axes

@@ -153,14 +153,14 @@ class _Moving:
     def touched(self, at: _Array) -> NDArray[np.bool_]:
         """Return whether each stop is touched at some times, from its exact events."""
         shown = self.shown
-        found = np.zeros((len(at), len(self.stops)), dtype=bool)
+        is_touched = np.zeros((len(at), len(self.stops)), dtype=bool)
         half = 0.5 * float(np.diff(at).max(initial=0.0))  # so that a short contact is seen, too
         for i, name in enumerate(self.stops):
             hits = shown.event_at[shown.hits(name)]
             for span in [*shown.contacts(name), *zip(hits, hits, strict=True)]:
                 begin, end = shown.seconds(np.array(span))
-                found[:, i] |= (at >= begin - half) & (at <= end + half)
-        return found
+                is_touched[:, i] |= (at >= begin - half) & (at <= end + half)
+        return is_touched
 
     def owners(self) -> list[str]:
         """Return for each line the stop that it is drawn for, or ""."""
@@ -169,12 +169,12 @@ class _Moving:
             for words in self.rest.words
             if words.over_lines and ":" in words.text
         }
-        found = []
+        stop_names = []
         for line in self.rest.lines:
             middle = 0.5 * (line.points[0][1] + line.points[-1][1])
             near = [name for name, y in rows.items() if abs(y - middle) < 2.0]
-            found.append(near[0] if line.kind == "stop" and near else "")
-        return found
+            stop_names.append(near[0] if line.kind == "stop" and near else "")
+        return stop_names
 
 
 def _points(made: Drawing) -> _Array:
@@ -212,8 +212,8 @@ def _palette() -> bytes:
     pens = [np.array(to_rgb(colour)) for colour in {pen.colour: None for pen in PENS.values()}]
     share = np.linspace(0.0, 1.0, _SHADES)[:, np.newaxis]
     pairs = [*((white, pen) for pen in pens), (box, np.zeros(3))]
-    found = np.concatenate([(1.0 - share) * one + share * other for one, other in pairs])
-    return np.rint(255.0 * found).astype(np.uint8).tobytes()
+    colours = np.concatenate([(1.0 - share) * one + share * other for one, other in pairs])
+    return np.rint(255.0 * colours).astype(np.uint8).tobytes()
 
 
 def _pictures(
@@ -315,10 +315,10 @@ def _page(moving: _Moving, at: _Array, duration: float, title: str | None, speed
 
 def _linear(moving: _Moving, where: range) -> list[list[Any]]:
     """Return points as x, y and the shifts of x, as pairs of an index and a number."""
-    found = []
+    points = []
     for i in where:
         shifts = [
             [k, float(f"{one:.6g}")] for k, one in enumerate(moving.shifts[:, i]) if one != 0.0
         ]
-        found.append([*(float(f"{one:.6g}") for one in moving.base[i]), shifts])
-    return found
+        points.append([*(float(f"{one:.6g}") for one in moving.base[i]), shifts])
+    return points

@@ -77,29 +77,29 @@ def mass_envelopes(
             )
     count = len(assembly.names)
     size = (7.2, 1.5 + 0.34 * max(count, 3))
-    given = panels(axes, 3, "displacement, drift and acceleration", size, title, beside=True)
-    layout = given[0].figure.get_layout_engine() if axes is None else None
+    panel_axes = panels(axes, 3, "displacement, drift and acceleration", size, title, beside=True)
+    layout = panel_axes[0].figure.get_layout_engine() if axes is None else None
     if isinstance(layout, ConstrainedLayoutEngine):
         layout.set(w_pad=0.1)  # inches, between the labels of ticks at the edges of two panels
     for (name, motion), look in zip(named.items(), looks(list(named)), strict=True):
-        _draw(given, motion, every[name], look)
+        _draw(panel_axes, motion, every[name], look)
     labels = ("relative displacement (mm)", "drift (mm)", "absolute acceleration (g)")
-    for ax, label in zip(given, labels, strict=True):
+    for ax, label in zip(panel_axes, labels, strict=True):
         ax.set_xlabel(base_label(label, named.values()))
         ax.set_ylim(-0.5, count - 0.5)
         ax.set_yticks(range(count), [literal(name) for name in assembly.names])
         ax.grid(True, axis="y", linewidth=0.4, color="0.85")
         ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.margins(x=0.12)
-    given[0].axvline(0.0, color=EDGE, linewidth=0.6, zorder=1)
-    for ax in given[1:]:
+    panel_axes[0].axvline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+    for ax in panel_axes[1:]:
         ax.set_xlim(0.0, ax.get_xlim()[1])
         place = ax.get_subplotspec()
         if place is not None and axes is None and not place.is_first_col():
             ax.tick_params(labelleft=False)
     if len(named) > 1:
-        add_legend(given[0], [_entry(look) for look in looks(list(named))], columns=2)
-    return given
+        add_legend(panel_axes[0], [_entry(look) for look in looks(list(named))], columns=2)
+    return panel_axes
 
 
 def _entry(look: Look) -> Any:
@@ -110,33 +110,33 @@ def _style(look: Look) -> dict[str, Any]:
     return look.marks(empty="white") | look.line
 
 
-def _draw(given: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:
-    moved, drift, shaken = given
+def _draw(panel_axes: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:
+    moved, drift, shaken = panel_axes
     rank = {name: i for i, name in enumerate(assembly.names)}
-    found = totals(motion)
+    extrema = totals(motion)
     for row in chains(assembly):
         names = [name for name, _ in row]
         at = [rank[name] for name in names]
         for side in ("displacement_max", "displacement_min"):
-            far = found[side].sel(mass=names).values
+            far = extrema[side].sel(mass=names).values
             moved.plot(in_unit(1e3) * far, at, zorder=3, **_style(look))
         drift.plot(
-            [in_unit(1e3) * _drift(motion, found, assembly, *pair) for pair in row],
+            [in_unit(1e3) * _drift(motion, extrema, assembly, *pair) for pair in row],
             at,
             zorder=3,
             **_style(look),
         )
-        most = found["peak_acceleration"].sel(mass=names).values
+        most = extrema["peak_acceleration"].sel(mass=names).values
         shaken.plot(in_unit(1.0 / GRAVITY) * most, at, zorder=3, **_style(look))
 
 
 def _drift(
-    motion: xr.Dataset, found: xr.Dataset, assembly: Assembly, mass: str, below: str
+    motion: xr.Dataset, extrema: xr.Dataset, assembly: Assembly, mass: str, below: str
 ) -> float:
     """Return the largest absolute displacement of a mass relative to the body below (m)."""
     for name, link in assembly.links.items():
         if {link.left, link.right} == {mass, below}:
-            return float(found["peak_drift"].sel(link=name))
+            return float(extrema["peak_drift"].sel(link=name))
     moved = motion["displacement"].sel(mass=mass)
     apart = moved if below == GROUND else moved - motion["displacement"].sel(mass=below)
     return float(np.abs(apart.values).max(initial=0.0))

@@ -95,13 +95,13 @@ def mass_histories(
     names = chosen(masses, shown.assembly.names, "mass", "masses")
     pairs = chosen(closing, tuple(shown.assembly.stops), "stop", "closing") if closing else []
     every = rows_of_panels(axes, [*names, *pairs], 1.45, title)
-    given, below = Panels(every[: len(names)]), every[len(names) :]
+    mass_axes, below = Panels(every[: len(names)]), every[len(names) :]
     factor, label = LABELS[quantity]
     factor, label = in_unit(factor), base_label(label, [motion])
     dots = False
     for ax, name in zip(below, pairs, strict=True):
         _closing(ax, shown, name)
-    for ax, name in zip(given, names, strict=True):
+    for ax, name in zip(mass_axes, names, strict=True):
         values = factor * shown.motion[quantity].sel(mass=name).values
         stops = touching(shown.assembly, name)
         draw_contacts(ax, shown, [stop for stop in stops if shown.contacts(stop)])
@@ -112,9 +112,9 @@ def mass_histories(
                 seen = factor * motion[f"event_{quantity}"].sel(mass=name).values[hit]
                 ax.scatter(shown.event_at[hit], seen, s=9, color="black", zorder=4)
                 dots = dots or len(hit) > 0
-    share_scale(given)
+    share_scale(mass_axes)
     alike = quantity == "displacement"  # a closing displacement is one between two masses
-    label_values(every if alike else given, axes, label)
+    label_values(every if alike else mass_axes, axes, label)
     for ax in [] if alike else below:
         ax.set_ylabel("closing (mm)")
     for ax in every:
@@ -129,7 +129,7 @@ def mass_histories(
         entries.append(_IMPACT)
     entries += mark_end(every, motion)
     if entries:
-        add_legend(given[0], entries)
+        add_legend(mass_axes[0], entries)
     return every
 
 
@@ -149,10 +149,10 @@ def _closing(ax: Axes, shown: History, name: str) -> None:
 _IMPACT = Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
 
 
-def share_scale(given: Panels) -> None:
+def share_scale(panel_axes: Panels) -> None:
     """Give panels the same vertical limits."""
-    limits = np.array([ax.get_ylim() for ax in given])
-    for ax in given:
+    limits = np.array([ax.get_ylim() for ax in panel_axes])
+    for ax in panel_axes:
         ax.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
@@ -197,7 +197,7 @@ def contact_forces(
     shown = history(motion, cycles)
     parts = shown.assembly.stops
     names = chosen(stops, tuple(parts), "stop", "stops")
-    given = rows_of_panels(axes, names, 1.45, title)
+    panel_axes = rows_of_panels(axes, names, 1.45, title)
     struck = {
         name: impulses(motion, shown.assembly, name)[shown.hits(name)]
         for name in names
@@ -210,7 +210,7 @@ def contact_forces(
     }
     force = FORCE.unit(*(float(np.nanmax(one, initial=0.0)) for one in pushed.values()))
     impulse = IMPULSE.unit(*(float(one.max(initial=0.0)) for one in struck.values()))
-    for ax, name in zip(given, names, strict=True):
+    for ax, name in zip(panel_axes, names, strict=True):
         draw_contacts(ax, shown, [name])
         if name in struck:
             at = shown.event_at[shown.hits(name)]
@@ -223,17 +223,17 @@ def contact_forces(
             ax.set_ylabel(f"contact force ({force.symbol})")
         ax.set_xlim(*shown.span)
     for group in (struck, pushed):
-        alike = Panels([ax for ax, name in zip(given, names, strict=True) if name in group])
+        alike = Panels([ax for ax, name in zip(panel_axes, names, strict=True) if name in group])
         if alike:
             highest = max(ax.get_ylim()[1] for ax in alike)
             for ax in alike:
                 ax.set_ylim(0.0, highest)
-    given[-1].set_xlabel(shown.label)
+    panel_axes[-1].set_xlabel(shown.label)
     pressed = [name for name in names if shown.contacts(name)]
-    entries = [*contact_legend(shown.assembly, pressed), *mark_end(given, motion)]
+    entries = [*contact_legend(shown.assembly, pressed), *mark_end(panel_axes, motion)]
     if entries:
-        add_legend(given[0], entries)
-    return given
+        add_legend(panel_axes[0], entries)
+    return panel_axes
 
 
 def impulses(motion: xr.Dataset, assembly: Any, stop: str) -> Any:

@@ -175,7 +175,7 @@ def refuse_masses(data: Any, instead: str) -> None:
         )
 
 
-def chosen(given: Any, names: tuple[str, ...], what: str, field: str) -> list[str]:
+def chosen(choice: Any, names: tuple[str, ...], what: str, field: str) -> list[str]:
     """Return the names that were passed, checked, or all of them.
 
     Raises
@@ -183,14 +183,14 @@ def chosen(given: Any, names: tuple[str, ...], what: str, field: str) -> list[st
     InputError
         If a name does not exist, or if there is none.
     """
-    if given is None:
-        found = list(names)
+    if choice is None:
+        selection = list(names)
     else:
-        listed = [given] if isinstance(given, str) else list(given)
-        found = [check_known(name, names, what, field) for name in listed]
-    if not found:
+        listed = [choice] if isinstance(choice, str) else list(choice)
+        selection = [check_known(name, names, what, field) for name in listed]
+    if not selection:
         raise InputError(f"{field}: empty; pass the name of at least one {what}")
-    return found
+    return selection
 
 
 def rows_of_panels(
@@ -212,12 +212,12 @@ def grid_of_panels(axes: Any, names: list[str], height: float, title: str | None
     made = new_axes(rows, columns, (_PAGE, 0.8 + height * rows), sharex=True)
     for unused in made.ravel()[count:]:
         unused.remove()
-    given = Panels(made.ravel()[:count])
-    for above in given[count - columns :]:  # those without a panel below them
+    panel_axes = Panels(made.ravel()[:count])
+    for above in panel_axes[count - columns :]:  # those without a panel below them
         above.tick_params(labelbottom=True)
     if title:
-        given[0].figure.suptitle(title)
-    return name_panels(given, names)
+        panel_axes[0].figure.suptitle(title)
+    return name_panels(panel_axes, names)
 
 
 def name_panels(made: Panels, names: list[str]) -> Panels:
@@ -227,23 +227,23 @@ def name_panels(made: Panels, names: list[str]) -> Panels:
     return made
 
 
-def label_values(given: Panels, axes: Any, label: str) -> None:
+def label_values(panel_axes: Panels, axes: Any, label: str) -> None:
     """Label the vertical axes: those of a new figure, which have one scale, once for all."""
-    figure = given[0].get_figure(root=True)
-    if axes is None and figure is not None and len(given) > 1:
+    figure = panel_axes[0].get_figure(root=True)
+    if axes is None and figure is not None and len(panel_axes) > 1:
         words = without_unit(label) if unitless() else label
-        figure.supylabel(words, fontsize=given[0].yaxis.label.get_fontsize())
+        figure.supylabel(words, fontsize=panel_axes[0].yaxis.label.get_fontsize())
     else:
-        for ax in given:
+        for ax in panel_axes:
             ax.set_ylabel(label)
 
 
-def label_each(given: Panels, axes: Any, labels: list[str]) -> None:
+def label_each(panel_axes: Panels, axes: Any, labels: list[str]) -> None:
     """Label the vertical axes: once for all panels of a new figure, if the labels are the same."""
     if len(set(labels)) == 1:
-        label_values(given, axes, " ".join(labels[0].split("\n")))
+        label_values(panel_axes, axes, " ".join(labels[0].split("\n")))
         return
-    for ax, label in zip(given, labels, strict=True):
+    for ax, label in zip(panel_axes, labels, strict=True):
         ax.set_ylabel(label)
 
 

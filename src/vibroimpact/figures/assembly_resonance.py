@@ -92,11 +92,11 @@ def mass_resonance(
     if "direction" not in data.dims or "frequency" not in data.dims:
         raise InputError(f"{what} of a Rig with an Assembly of several masses")
     drawn = _panels(data, quantity, names, assembly)
-    given = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
     frequency = data["frequency"].values
     kinds: set[str] = set()
     loose = set()
-    for ax, one in zip(given, drawn, strict=True):
+    for ax, one in zip(panel_axes, drawn, strict=True):
         kinds |= _shade(ax, frequency, one.touched)
         for layer, (direction, style) in enumerate(sweeps_of(data)):
             curve = one.factor * one.values.sel(direction=direction).values
@@ -114,8 +114,8 @@ def mass_resonance(
         ax.set_xlim(frequency[0], max(frequency[-1], 1.001 * frequency[0]))
         if not (one.values < 0.0).any():
             ax.set_ylim(bottom=0.0)
-    label_each(given, axes, [one.label for one in drawn])
-    label_lowest(given, axes, "excitation frequency $f$ (Hz)")
+    label_each(panel_axes, axes, [one.label for one in drawn])
+    label_lowest(panel_axes, axes, "excitation frequency $f$ (Hz)")
     entries: list[Any] = []
     for direction, look in sweeps_of(data):
         entries.append(Line2D([], [], label=look.label, **look.curve(1)))
@@ -127,8 +127,8 @@ def mass_resonance(
         for kind in _CONTACT
         if kind in kinds
     ]
-    legend_of(given, axes, entries)
-    return given
+    legend_of(panel_axes, axes, entries)
+    return panel_axes
 
 
 @finished
@@ -181,54 +181,54 @@ def mass_branches(
             "same rig with branches along 'frequency', or leave sweep out"
         )
     drawn = _panels(data, quantity, names, assembly)
-    given = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
     scale, unit = axis_unit(data[parameter])
     x = scale * data[parameter].values
     pieces = stable_pieces(data)
     styles: dict[tuple[bool, bool], dict[str, Any]] = {}
-    found: list[Line2D] = []
-    for ax, one in zip(given, drawn, strict=True):
+    marks: list[Line2D] = []
+    for ax, one in zip(panel_axes, drawn, strict=True):
         y = one.factor * one.values.values
         for piece, stable in pieces:
             for run, touched in _runs(piece, one.touched):
                 width = (2.0 if touched else 0.9) * (1.0 if stable else 0.8)
                 styles[stable, touched] = style = orbit_style(stable, width)
                 ax.plot(x[run], y[run], **style)
-        found = []  # of each panel the same kinds: one legend serves all
+        marks = []  # of each panel the same kinds: one legend serves all
         if sweep is not None:
             swept = one.factor * one.of(sweep[one.quantity])
-            found += mark_sweep(ax, swept, scale, 0.7, _MARKS)
+            marks += mark_sweep(ax, swept, scale, 0.7, _MARKS)
         if f"bifurcation_{one.quantity}" in data:
             marked = one.factor * one.of(data[f"bifurcation_{one.quantity}"]).values
-            found += mark_bifurcations(ax, data, scale, marked)
+            marks += mark_bifurcations(ax, data, scale, marked)
         ax.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
-    label_each(given, axes, [one.label for one in drawn])
-    label_lowest(given, axes, f"{data[parameter].attrs['long_name']} ({unit})")
+    label_each(panel_axes, axes, [one.label for one in drawn])
+    label_lowest(panel_axes, axes, f"{data[parameter].attrs['long_name']} ({unit})")
     words = {True: "stable", False: "unstable"}
     entries = [
         Line2D([], [], label=f"{words[stable]}{', contact' if touched else ''}", **style)
         for (stable, touched), style in sorted(styles.items(), reverse=True)
     ]
-    legend_of(given, axes, [*entries, *found])
-    return given
+    legend_of(panel_axes, axes, [*entries, *marks])
+    return panel_axes
 
 
-def label_lowest(given: Panels, axes: Any, label: str) -> None:
+def label_lowest(panel_axes: Panels, axes: Any, label: str) -> None:
     """Label the horizontal axes of the panels that have none below them."""
-    for i, ax in enumerate(given):
+    for i, ax in enumerate(panel_axes):
         place = ax.get_subplotspec()
         columns = 1 if place is None or axes is not None else place.get_gridspec().ncols
-        if i >= len(given) - columns:
+        if i >= len(panel_axes) - columns:
             ax.set_xlabel(label)
 
 
-def legend_of(given: Panels, axes: Any, entries: list[Any]) -> None:
+def legend_of(panel_axes: Panels, axes: Any, entries: list[Any]) -> None:
     """Add one legend for all panels: above the first, or below all panels of a new figure."""
-    figure = given[0].get_figure(root=True)
-    if axes is None and figure is not None and len(given) > 2:
+    figure = panel_axes[0].get_figure(root=True)
+    if axes is None and figure is not None and len(panel_axes) > 2:
         add_legend(figure, entries, columns=4)
     else:
-        add_legend(given[0], entries, columns=3)
+        add_legend(panel_axes[0], entries, columns=3)
 
 
 def _runs(piece: slice, hit: NDArray[np.bool_]) -> list[tuple[slice, bool]]:
@@ -282,7 +282,7 @@ def _panels(
         factor, label = axis_label(values, quantity)
         return [_Panel(name, quantity, values, factor, label, hit.any("stop").values)]
     every = assembly.names if dim == "mass" else tuple(assembly.stops)
-    found = []
+    panels = []
     shared = axis_label(values, quantity)
     for name in chosen(names, every, dim, "names"):
         of, (factor, label) = quantity, shared
@@ -291,8 +291,8 @@ def _panels(
             factor, label = axis_label(data[of], of)
         # The orbit touches, whichever mass is hit.
         touched = (hit.any("stop") if dim == "mass" else hit.sel(stop=name)).values
-        found.append(_Panel(name, of, data[of].sel({dim: name}), factor, label, touched))
-    return found
+        panels.append(_Panel(name, of, data[of].sel({dim: name}), factor, label, touched))
+    return panels
 
 
 def _shade(ax: Axes, frequency: _Array, hit: NDArray[np.bool_]) -> set[str]:

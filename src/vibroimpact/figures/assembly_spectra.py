@@ -75,21 +75,21 @@ def mass_spectra(
             "fourier_spectrum of a Rig with an Assembly"
         )
     names = chosen(masses, tuple(spectrum["mass"].values.tolist()), "mass", "masses")
-    given = rows_of_panels(axes, names, 1.45, title)
+    panel_axes = rows_of_panels(axes, names, 1.45, title)
     factor, label = LABELS[quantity]
     data = spectrum.isel(order=spectrum["order"].values <= highest)
     order = data["order"].values
     heights = in_unit(factor) * data[f"{quantity}_amplitude"].sel(mass=names)
     top = float(np.nanmax(heights.values, initial=0.0)) or 1.0
-    for ax, name in zip(given, names, strict=True):
+    for ax, name in zip(panel_axes, names, strict=True):
         _draw(ax, order, heights.sel(mass=name).values, top, nearly_continuous(order, highest))
         ax.set_xlim(-0.4, highest + 0.4)
         ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
         ax.set_ylim(_RANGE * top, 2.0 * top)
         ax.yaxis.set_major_locator(LogLocator(numticks=6))
-    label_values(given, axes, f"amplitude of {base_label(label, [spectrum])}")
-    label_orders(given[-1], given[0], [spectrum])
-    return given
+    label_values(panel_axes, axes, f"amplitude of {base_label(label, [spectrum])}")
+    label_orders(panel_axes[-1], panel_axes[0], [spectrum])
+    return panel_axes
 
 
 def _draw(

@@ -128,8 +128,8 @@ def branch_diagram(
         if any(one == stable for _, one in pieces)
     ]
     marked = factor * of_quantity(data, f"bifurcation_{quantity}").values
-    found = mark_bifurcations(ax, data, scale, marked)
-    handles += found
+    marks = mark_bifurcations(ax, data, scale, marked)
+    handles += marks
     if sweep is not None:
         source, of_eta = quantity, 1.0
         if quantity in _NORMALISED:  # by the largest peak, as the branches
@@ -141,7 +141,7 @@ def branch_diagram(
     ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
     add_legend(ax, handles)
-    names = Names(ax, found)
+    names = Names(ax, marks)
     for part, name in _orbits(data):
         names.write(x[part], y[part], name, "black", once=True)
     return ax
@@ -153,14 +153,14 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
     hits = [np.rint(of_stop(data, "impacts", side).values * period).astype(int) for side in SIDES]
     oscillator = motion_parameters(data)["oscillator"]
     stops = oscillator["right"], oscillator["left"]
-    found = []
+    runs = []
     changes = np.any([np.diff(part) != 0 for part in (branch, period, *hits)], axis=0)
     ends = [0, *(np.flatnonzero(changes) + 1), len(branch)]
     for first, last in itertools.pairwise(ends):
         right, left, cycles = (int(part[first]) for part in (*hits, period))
         name = contact_counts(right, left, stops) if right or left else "no contact"
-        found.append((slice(first, last), f"{name}, period {cycles}" if cycles > 1 else name))
-    return found
+        runs.append((slice(first, last), f"{name}, period {cycles}" if cycles > 1 else name))
+    return runs
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:

@@ -20,12 +20,12 @@ _PER_GRAVITY = 1e2 / 9.80665
 
 
 @finished
-def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
+def scenario_cases(scenarios: Mapping[str, str], *, title: str | None = None) -> Panels:
     """Draw the scenarios of laboratory tests over gap and bumper, with one panel per acceleration.
 
     Parameters
     ----------
-    found
+    scenarios
         Scenarios, as a mapping from case codes such as ``"B2-G1-A3"`` to scenarios. A scenario is
         one of ``"S0"`` to ``"S6"``, or ``"unclassified"``. Tests that are missing in the mapping
         are left blank.
@@ -43,14 +43,15 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
         If a code is not the code of a laboratory test, or if a scenario is unknown.
     """
     known = {case.code for case in laboratory.campaign()}
-    for code, scenario in found.items():
+    for code, scenario in scenarios.items():
         if code not in known:
             raise InputError(
-                f"found: {code!r} is not a laboratory test; use codes from B1-G1-A1 to B4-G4-A3"
+                f"scenarios: {code!r} is not a laboratory test; use codes from B1-G1-A1 to B4-G4-A3"
             )
         if scenario not in SCENARIOS:
             raise InputError(
-                f"found[{code}]: {scenario!r} is not a scenario; use one of {', '.join(SCENARIOS)}"
+                f"scenarios[{code}]: {scenario!r} is not a scenario; use one of "
+                f"{', '.join(SCENARIOS)}"
             )
     bumpers, gaps = list(laboratory.BUMPERS), list(laboratory.GAPS)
     count = len(laboratory.ACCELERATIONS)
@@ -64,7 +65,7 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     for ax, (name, value) in zip(axes, laboratory.ACCELERATIONS.items(), strict=True):
         for i, gap in enumerate(gaps):
             for j, bumper in enumerate(bumpers):
-                _cell(ax, i, j, found.get(f"{bumper}-{gap}-{name}"))
+                _cell(ax, i, j, scenarios.get(f"{bumper}-{gap}-{name}"))
         ax.set_xlim(0, len(gaps))
         ax.set_ylim(0, len(bumpers))
         ax.set_aspect("equal")
@@ -85,7 +86,7 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
         [
             SCENARIOS[s.label].entry(f"{s.label}: {s.meaning}")
             for s in Scenario
-            if s.label in found.values()
+            if s.label in scenarios.values()
         ],
         columns=3,
         handlelength=2.4,

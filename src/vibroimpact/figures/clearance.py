@@ -67,9 +67,9 @@ def clearances(
     if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; pass a number of cycles greater than 0")
     what = "the whole and the magnified part"
-    given = panels(axes, 2, what, (7.2, 5.4), title, sharex=False)
-    whole, near = given
-    for ax in given:
+    panel_axes = panels(axes, 2, what, (7.2, 5.4), title, sharex=False)
+    whole, near = panel_axes
+    for ax in panel_axes:
         for curve in curves:
             for side in curve.gaps:
                 ax.plot(
@@ -94,7 +94,7 @@ def clearances(
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
     whole.axvspan(*near.get_xlim(), color=SHADE, zorder=0)
     add_legend(whole)
-    return given
+    return panel_axes
 
 
 def _label(curve: DrawnMotion, side: str, motions: int) -> str:

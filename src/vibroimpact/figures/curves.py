@@ -40,11 +40,11 @@ def bifurcation_curves(
     InputError
         If a dataset holds no curve, or if the parameters of the datasets differ.
     """
-    names, given = list(by_name(curves)), list(by_name(curves).values())
-    if not given or any("other_parameter" not in data.attrs for data in given):
-        wrong = "one of them is not a bifurcation curve" if given else "empty"
+    names, datasets = list(by_name(curves)), list(by_name(curves).values())
+    if not datasets or any("other_parameter" not in data.attrs for data in datasets):
+        wrong = "one of them is not a bifurcation curve" if datasets else "empty"
         raise InputError(f"curves: {wrong}; pass results of bifurcation_curve")
-    pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
+    pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in datasets}
     if len(pairs) > 1:
         raise InputError(
             f"curves: their pairs of parameters differ, {sorted(pairs)}; pass only curves of one "
@@ -52,9 +52,9 @@ def bifurcation_curves(
         )
     ((first, second),) = pairs
     ax = axes_or_new(ax, (6.4, 4.8), title)
-    scales, units = zip(*(axis_unit(given[0][name]) for name in (first, second)), strict=True)
+    scales, units = zip(*(axis_unit(datasets[0][name]) for name in (first, second)), strict=True)
     seen = set()
-    for data in given:
+    for data in datasets:
         kind = data.attrs["kind"]
         x, y = scales[0] * data[first].values, scales[1] * data[second].values
         ax.plot(x, y, label=None if kind in seen else MARKS[kind].label, **MARKS[kind].line)
@@ -70,11 +70,11 @@ def bifurcation_curves(
                 label=None if "cusp" in seen else "cusp",
             )
             seen.add("cusp")
-    ax.set_xlabel(f"{given[0][first].attrs['long_name']} ({units[0]})")
-    ax.set_ylabel(f"{given[0][second].attrs['long_name']} ({units[1]})")
+    ax.set_xlabel(f"{datasets[0][first].attrs['long_name']} ({units[0]})")
+    ax.set_ylabel(f"{datasets[0][second].attrs['long_name']} ({units[1]})")
     add_legend(ax)
     written = Names(ax)
-    for name, data in zip(names, given, strict=True):
+    for name, data in zip(names, datasets, strict=True):
         if name not in ("", data.attrs["kind"]):
             x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
             written.write(x, y, name, MARKS[data.attrs["kind"]].colour, once=False)

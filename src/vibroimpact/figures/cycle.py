@@ -52,9 +52,9 @@ def hysteresis_cycle(
         If a dataset does not hold a motion with samples.
     """
     ax = axes_or_new(ax, (5.2, 4.4), title)
-    given = named(motions, records=True)
-    curves = shown(given)
-    force = all(base_at_rest(motion) for motion in given.values())
+    named_motions = named(motions, records=True)
+    curves = shown(named_motions)
+    force = all(base_at_rest(motion) for motion in named_motions.values())
     name, factor = "acceleration", 1.0
     label = "absolute acceleration $\\ddot u + A_t$ (m/s²)"
     if force:
@@ -72,7 +72,7 @@ def hysteresis_cycle(
             zorder=3,
         )
     gap_lines(ax, curves, horizontal=False)
-    ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
+    ax.set_xlabel(base_label("relative displacement $u$ (mm)", named_motions.values()))
     ax.set_ylabel(label)
     name_lines(ax, curves)
     return ax

@@ -87,9 +87,9 @@ def incremental_curves(
             label=None if number else "single records",
             zorder=2,
         )
-    found = fractiles(demands, quantity, _FRACTILES)[str(values.name)]
+    fractile_curves = fractiles(demands, quantity, _FRACTILES)[str(values.name)]
     for share, dashes in zip(_FRACTILES, _DASHES, strict=True):
-        curve = found.sel(fractile=share).values
+        curve = fractile_curves.sel(fractile=share).values
         ax.plot(
             level,
             factor * np.where(np.isfinite(curve), curve, np.nan),
@@ -164,8 +164,8 @@ def fragility_curves(
         whole = _value(fragility, others[0], name) if name is not None else None
         marks = look.marks() | {"clip_on": False, "zorder": 4}
         if np.isnan(median):
-            told = f"no curve, {lacking(shares)} needed"
-            ax.plot(level, shares, label=f"{whole or 'share of the records'}: {told}", **marks)
+            reason = f"no curve, {lacking(shares)} needed"
+            ax.plot(level, shares, label=f"{whole or 'share of the records'}: {reason}", **marks)
             continue
         words = f"$\\theta$ = {median:.3g} {symbol}".rstrip() + f", $\\beta$ = {spread:.2g}"
         if whole is not None:

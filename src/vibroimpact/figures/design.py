@@ -124,8 +124,8 @@ def beyond_limits(data: xr.Dataset) -> NDArray[np.bool_]:
     """Return which designs exceed a limit."""
     if "within_limits" not in data:
         return np.zeros(data["pareto"].shape, dtype=bool)
-    found: NDArray[np.bool_] = ~data["within_limits"].values.astype(bool)
-    return found
+    is_beyond: NDArray[np.bool_] = ~data["within_limits"].values.astype(bool)
+    return is_beyond
 
 
 def best_label(data: xr.Dataset) -> str:
@@ -196,14 +196,14 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
     parameters = motion_parameters(data)
     if not {"assembly", "oscillator"} & set(parameters):
         return [math.nan for _ in dims]
-    rig, found = Rig(system_from(parameters)), []
+    rig, values = Rig(system_from(parameters)), []
     for dim in dims:
         try:
             value = parameter(dim, rig).read(rig)
         except InputError:
             value = math.nan
-        found.append(value)
-    return found
+        values.append(value)
+    return values
 
 
 def _present_on_axes(data: xr.Dataset, dims: list[str]) -> list[float]:

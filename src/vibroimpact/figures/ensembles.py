@@ -84,12 +84,12 @@ def resonance_bands(
     frequency = data["frequency"].values
     handles: list[Any] = []
     for ax, quantity in zip(drawn, quantities, strict=True):
-        found = fractiles(data, quantity, (low, 0.5, high))[quantity.partition(".")[0]]
-        factor, label = axis_label(found, quantity)
+        bands = fractiles(data, quantity, (low, 0.5, high))[quantity.partition(".")[0]]
+        factor, label = axis_label(bands, quantity)
         handles = []
         for direction in data["direction"].values:
             look = SWEEPS[str(direction)]
-            lower, middle, upper = factor * found.sel(direction=direction).values
+            lower, middle, upper = factor * bands.sel(direction=direction).values
             style: dict[str, Any] = {
                 "facecolor": (look.colour, _LIGHT[str(direction)]),
                 "edgecolor": (look.colour, 0.6),

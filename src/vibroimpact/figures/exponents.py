@@ -41,11 +41,11 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     """
     if "exponents" not in data or "exponent" not in data["exponents"].dims:
         raise InputError("data: it has no exponents; pass the result of lyapunov_exponents")
-    found = data[["exponents", "exponents_uncertainty"]]
-    if "rig" not in found.dims:
-        found = found.expand_dims("rig")
-    over = [str(dim) for dim in found["exponents"].dims if dim not in ("rig", "exponent")]
-    wide = [dim for dim in over if found.sizes[dim] > 1]
+    dataset = data[["exponents", "exponents_uncertainty"]]
+    if "rig" not in dataset.dims:
+        dataset = dataset.expand_dims("rig")
+    over = [str(dim) for dim in dataset["exponents"].dims if dim not in ("rig", "exponent")]
+    wide = [dim for dim in over if dataset.sizes[dim] > 1]
     if len(wide) != 1:
         raise InputError(
             f"data: the exponents depend on {', '.join(wide)}, but only one of these can be drawn; "
@@ -55,15 +55,15 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
             "parameter"
         )
     (name,) = wide
-    found = found.squeeze([dim for dim in over if dim != name], drop=True)
-    scale, unit = axis_unit(found[name])
-    x = scale * found[name].values
+    dataset = dataset.squeeze([dim for dim in over if dim != name], drop=True)
+    scale, unit = axis_unit(dataset[name])
+    x = scale * dataset[name].values
     ax = axes_or_new(ax, (6.4, 3.8), title)
-    several = found.sizes["rig"] > 1
-    for r in range(found.sizes["rig"]):
-        one, look = found.isel(rig=r).transpose(name, "exponent"), MOTIONS[r % len(MOTIONS)]
+    several = dataset.sizes["rig"] > 1
+    for r in range(dataset.sizes["rig"]):
+        one, look = dataset.isel(rig=r).transpose(name, "exponent"), MOTIONS[r % len(MOTIONS)]
         rig = f"{literal(str(one['rig'].item()))}, " if several else ""
-        for k, words in enumerate(("largest", "second")[: found.sizes["exponent"]]):
+        for k, words in enumerate(("largest", "second")[: dataset.sizes["exponent"]]):
             y, error = (one[key].values[:, k] for key in ("exponents", "exponents_uncertainty"))
             style: dict[str, Any] = {"color": look.colour, "linestyle": "-" if k == 0 else ":"}
             ax.plot(
@@ -89,7 +89,7 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
             )
     ax.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
     fit_x_axis(ax, x)
-    ax.set_xlabel(f"{found[name].attrs['long_name']} ({unit})")
+    ax.set_xlabel(f"{dataset[name].attrs['long_name']} ({unit})")
     ax.set_ylabel("Lyapunov exponents (1/s)")
     add_legend(ax, columns=2)
     return ax

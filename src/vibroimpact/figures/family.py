@@ -108,8 +108,8 @@ def resonance_family(
     if quantity not in get_args(Quantity):
         raise InputError(f"quantity: {unknown(quantity, get_args(Quantity))}")
     names = [str(name) for name in data["rig"].values]
-    for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
-        for name in given or {}:
+    for field, mapping in (("labels", labels), ("colours", colours), ("markers", markers)):
+        for name in mapping or {}:
             if name not in names:
                 raise InputError(
                     f"{field}: {name!r} is not a rig of data; use {alternatives(names)}"

@@ -49,8 +49,10 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
     """
     _check(result)
     tests = [str(t) for t in result["test"].values]
-    given = panels(axes, len(tests), "one panel per test", (7.2, 0.4 + 2.6 * len(tests)), title)
-    for ax, test in zip(given, tests, strict=True):
+    panel_axes = panels(
+        axes, len(tests), "one panel per test", (7.2, 0.4 + 2.6 * len(tests)), title
+    )
+    for ax, test in zip(panel_axes, tests, strict=True):
         mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
         size = float(result["noise"].sel(test=test)) or 1.0
         curves = str(result["test_kind"].sel(test=test).values) == "curves"
@@ -79,8 +81,8 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
             )
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
         ax.set_ylabel(f"{literal(test)}\nresidual / noise (–)")
-    add_legend(given[0], columns=2)
-    return given
+    add_legend(panel_axes[0], columns=2)
+    return panel_axes
 
 
 @finished
@@ -182,9 +184,9 @@ def fit_history(
         )
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
-    given = panels(axes, len(variables), "one panel per channel",
+    panel_axes = panels(axes, len(variables), "one panel per channel",
                    (7.2, 0.4 + 2.4 * len(variables)), title)  # fmt: skip
-    for ax, variable in zip(given, variables, strict=True):
+    for ax, variable in zip(panel_axes, variables, strict=True):
         here = mine["point_variable"].values == variable
         factor, unit = _UNITS[VARIABLES[variable].units]
         factor = in_unit(factor)
@@ -194,9 +196,9 @@ def fit_history(
         ax.plot(at, factor * mine["modelled_value"].values[here], color="#c05a00", linewidth=1.0,
                 label="fitted", zorder=3)  # fmt: skip
         ax.set_ylabel(f"{VARIABLES[variable].long_name}\n({unit})")
-    given[-1].set_xlabel("time $t$ (s)")
-    add_legend(given[0], columns=2)
-    return given
+    panel_axes[-1].set_xlabel("time $t$ (s)")
+    add_legend(panel_axes[0], columns=2)
+    return panel_axes
 
 
 def _check(result: xr.Dataset) -> None:

@@ -50,8 +50,8 @@ def frequency_marks(axes: Annotated[Any, _check_panels], frequencies: Marks) -> 
         If a frequency is invalid, or if it lies outside the range of an axis.
     """
     values = {
-        name: to_si(given, FREQUENCY, f"frequencies[{name!r}]", above=0.0)
-        for name, given in frequencies.items()
+        name: to_si(frequency, FREQUENCY, f"frequencies[{name!r}]", above=0.0)
+        for name, frequency in frequencies.items()
     }
     for name, value in values.items():
         for ax in axes:

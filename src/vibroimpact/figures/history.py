@@ -100,12 +100,12 @@ def time_history(
         what = "displacement, acceleration, velocity and transmitted force"
         handles.append(Line2D([], [], label="force on the mass", **_APPLIED))
     count = len(drawn)
-    given = panels(axes, count, what, (7.2, 0.4 + 2.4 * count), title)
-    for ax, panel in zip(given, drawn, strict=True):
+    panel_axes = panels(axes, count, what, (7.2, 0.4 + 2.4 * count), title)
+    for ax, panel in zip(panel_axes, drawn, strict=True):
         history_panel(ax, curves, panel)
-    given[-1].set_xlabel(cycles_label(given_motions))
-    add_legend(given[0], history_legend(curves) + handles)
-    return given
+    panel_axes[-1].set_xlabel(cycles_label(given_motions))
+    add_legend(panel_axes[0], history_legend(curves) + handles)
+    return panel_axes
 
 
 def panels_of(motions: Mapping[str, xr.Dataset]) -> list[_Panel]:

@@ -19,9 +19,9 @@ def finer_axis(axis: Axis, nodes: _Array) -> _Array:
     """Return the nodes and evenly spaced points between them, on the scale of an axis."""
     scale: Any = axis.get_transform()
     even = np.interp(_places(len(nodes)), np.arange(len(nodes)), scale.transform(nodes))
-    found: _Array = scale.inverted().transform(even)
-    found[::_PARTS] = nodes  # which rounding moved
-    return found
+    points: _Array = scale.inverted().transform(even)
+    points[::_PARTS] = nodes  # which rounding moved
+    return points
 
 
 def finer(values: NDArray[Any]) -> _Array:
@@ -41,8 +41,8 @@ def finer(values: NDArray[Any]) -> _Array:
 def nearest(values: NDArray[Any]) -> NDArray[Any]:
     """Return the value of the nearest node (y, x) at the points of `finer_axis`."""
     rows, columns = (np.rint(_places(count)).astype(int) for count in values.shape)
-    found: NDArray[Any] = values[np.ix_(rows, columns)]
-    return found
+    node_values: NDArray[Any] = values[np.ix_(rows, columns)]
+    return node_values
 
 
 def _places(count: int) -> _Array:

@@ -123,7 +123,7 @@ def _place(
     rim = half + int(np.ceil(_LEFT / _STEP))
     back = half + int(np.ceil(_ROOM / _STEP))
     beside, mark, number = (_distances(at, those) for those in (others, marks, written))
-    best, found = -np.inf, None
+    best, points = -np.inf, None
     for k in range(rim, len(at) - rim):
         under = slice(k - half, k + half + 1)
         if mark[under].min() < _CLEAR or number[under].min() < _APART:
@@ -140,8 +140,8 @@ def _place(
         # Room counts most, then straightness, then the middle of the line.
         good = min(room, _ROOM) - bend - 0.1 * abs(k / len(at) - 0.5)
         if good > best:
-            best, found = good, along
-    return found
+            best, points = good, along
+    return points
 
 
 def _distances(some: _Array, others: _Array) -> _Array:

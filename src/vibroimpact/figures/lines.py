@@ -58,12 +58,12 @@ def spectrum_lines(
     """
     check_lines(_LABELS, quantity, highest)
     # A dataset is a mapping, too.
-    given = by_name(spectra, "motion")
-    if not given:
+    datasets = by_name(spectra, "motion")
+    if not datasets:
         raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
-    for name, data in given.items():
+    for name, data in datasets.items():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
-            which = f"{name!r}" if len(given) > 1 else "this"
+            which = f"{name!r}" if len(datasets) > 1 else "this"
             raise InputError(
                 f"spectra: {which} is not a spectrum; pass the result of fourier_spectrum"
             )
@@ -74,12 +74,12 @@ def spectrum_lines(
     factor, label = _LABELS[quantity]
     factor = in_unit(factor)
     ax = axes_or_new(ax, (5.6, 3.6), title)
-    for i, (data, look) in enumerate(zip(given.values(), looks(list(given)), strict=True)):
+    for i, (data, look) in enumerate(zip(datasets.values(), looks(list(datasets)), strict=True)):
         kept = data["order"].values <= highest
         order = data["order"].values[kept]
         height = factor * data[f"{quantity}_amplitude"].values[kept]
         # Side by side, so that the lines of one do not hide those of the other.
-        shift = (i - 0.5 * (len(given) - 1)) * min(0.12, 0.8 / len(given))
+        shift = (i - 0.5 * (len(datasets) - 1)) * min(0.12, 0.8 / len(datasets))
         if nearly_continuous(order, highest):
             ax.plot(order, height, color=look.colour, linewidth=0.8, label=look.label)
             continue
@@ -94,9 +94,9 @@ def spectrum_lines(
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
     ax.autoscale(axis="y")  # together with the axes that share this one's scale
     ax.set_ylim(bottom=0.0)
-    ax.set_ylabel(base_label(label, given.values()))
-    label_orders(ax, ax, list(given.values()))
-    if len(given) > 1:
+    ax.set_ylabel(base_label(label, datasets.values()))
+    label_orders(ax, ax, list(datasets.values()))
+    if len(datasets) > 1:
         ax.legend(loc="upper right", frameon=False, fontsize="small")
     return ax
 

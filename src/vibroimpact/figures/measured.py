@@ -94,15 +94,15 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
             "data: no excursion, maximum, minimum or η of the displacement or the acceleration; "
             "pass measured curves with at least one of them"
         )
-    found = measured_features(data)
+    features = measured_features(data)
     what = " and ".join(panel.name for panel in shown)
-    given = panels(axes, len(shown), what, (7.2, 0.4 + 3.2 * len(shown)), title)
-    for ax, panel in zip(given, shown, strict=True):
-        for item in found.hysteresis:
+    panel_axes = panels(axes, len(shown), what, (7.2, 0.4 + 3.2 * len(shown)), title)
+    for ax, panel in zip(panel_axes, shown, strict=True):
+        for item in features.hysteresis:
             ax.axvspan(*item.ends, facecolor=SHADE, edgecolor=EDGE, lw=0.0, zorder=0)
         for direction, look in sweeps_of(data):
             x, y = points_of(panel.values.sel(direction=direction))
-            jumps = [j for j in found.jumps if j.direction == direction]
+            jumps = [j for j in features.jumps if j.direction == direction]
             ax.plot(
                 *cut_at(x, y, jumps),
                 label=f"{look.label}, measured",
@@ -117,9 +117,9 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
                 ax.plot([jump.before, jump.after], ends, zorder=2, **dotted.line)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
         ax.set_ylabel(panel.label)
-    given[-1].set_xlabel("excitation frequency $f$ (Hz)")
-    add_legend(given[0], columns=2)
-    return given
+    panel_axes[-1].set_xlabel("excitation frequency $f$ (Hz)")
+    add_legend(panel_axes[0], columns=2)
+    return panel_axes
 
 
 def points_of(values: xr.DataArray) -> tuple[_Array, _Array]:
@@ -159,11 +159,11 @@ def measured_points(
     entries: dict[str, Any] = {}
     for ax, name in zip(axes, names, strict=True):
         for direction, look in sweeps_of(measured):
-            found = _on_panel(name, computed, measured.sel(direction=direction))
-            if found is None:
+            points = _on_panel(name, computed, measured.sel(direction=direction))
+            if points is None:
                 continue
             (line,) = ax.plot(
-                *found,
+                *points,
                 linestyle="none",
                 marker="o" if look.filled else "s",
                 markersize=5.0 if look.filled else 6.5,
@@ -174,7 +174,7 @@ def measured_points(
                 zorder=6,
             )
             entries[direction] = line
-            top = 1.06 * float(np.max(found[1], initial=0.0))
+            top = 1.06 * float(np.max(points[1], initial=0.0))
             if top > ax.get_ylim()[1]:
                 ax.set_ylim(top=top)
     return list(entries.values())

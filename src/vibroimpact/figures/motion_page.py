@@ -140,9 +140,9 @@ def _columns(
     """Draw each column, and return the entries of the legend."""
     handles: dict[object, Artist] = {}
     for axes, (heading, motions) in zip(grid.T, columns.items(), strict=True):
-        given = named(motions)
-        curves = _column(axes, given, cycles, highest)
-        axes[0].set_title("\n".join([heading, *_kinds(given, heading)]), fontsize="medium", pad=8)
+        by_name = named(motions)
+        curves = _column(axes, by_name, cycles, highest)
+        axes[0].set_title("\n".join([heading, *_kinds(by_name, heading)]), fontsize="medium", pad=8)
         drawn = zip(*axes[0].get_legend_handles_labels(), strict=True)
         section = [handle for handle, label in drawn if label == SECTION]
         for handle in [*history_legend(curves), *section]:
@@ -151,30 +151,30 @@ def _columns(
 
 
 def _column(
-    axes: Any, given: dict[str, xr.Dataset], cycles: float | None, highest: float
+    axes: Any, motions: dict[str, xr.Dataset], cycles: float | None, highest: float
 ) -> list[DrawnMotion]:
-    length = cycles_shown(given, cycles, 2)
-    phase_portrait(given, axes[0])
+    length = cycles_shown(motions, cycles, 2)
+    phase_portrait(motions, axes[0])
     # A motion that was given up may be too short for a spectrum.
-    long = {name: motion for name, motion in given.items() if motion["cycle"][-1] >= 1.0}
+    long = {name: motion for name, motion in motions.items() if motion["cycle"][-1] >= 1.0}
     lines = {name: fourier_spectrum(motion, highest) for name, motion in long.items()}
     if lines:
         spectrum_lines(lines, axes[1], highest=highest)
-    curves = shown(given, length)
+    curves = shown(motions, length)
     panels: list[Axes] = list(axes[2:])
-    for ax, panel in zip(panels, panels_of(given), strict=True):
+    for ax, panel in zip(panels, panels_of(motions), strict=True):
         history_panel(ax, curves, panel)
-    panels[-1].set_xlabel(cycles_label(given))
+    panels[-1].set_xlabel(cycles_label(motions))
     for ax in axes:
         if (legend := ax.get_legend()) is not None:
             legend.remove()
     return curves
 
 
-def _kinds(given: dict[str, xr.Dataset], heading: str) -> list[str]:
+def _kinds(motions: dict[str, xr.Dataset], heading: str) -> list[str]:
     """Return a line for each motion with a known type, with its name unless the heading has it."""
     lines = []
-    for name, motion in given.items():
+    for name, motion in motions.items():
         if "period" not in motion:
             continue
         period = int(motion["period"])

@@ -72,15 +72,15 @@ def named(
         through a `Record` is passed without ``records``.
     """
     # A dataset is a mapping, too.
-    given = by_name(motions, "motion")
-    if not given:
+    named_motions = by_name(motions, "motion")
+    if not named_motions:
         raise InputError(
             "motions: empty; pass at least one motion, the result of steady or simulate"
         )
-    for motion in given.values():
+    for motion in named_motions.values():
         if not _seen(motion):
             recorded(motion, records=records)
-    return given
+    return named_motions
 
 
 def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: int) -> float:
@@ -126,12 +126,12 @@ def cycles_label(motions: Mapping[str, xr.Dataset]) -> str:
 def looks(names: list[str]) -> list[Look]:
     """Return the style of each motion: that of a sweep if its name contains a direction."""
     spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
-    found = []
+    styles = []
     for name in names:
         known = [look for key, look in SWEEPS.items() if key in name]
         look = known[0] if len(known) == 1 else next(spare)
-        found.append(look._replace(label=literal(name)))
-    return found
+        styles.append(look._replace(label=literal(name)))
+    return styles
 
 
 def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[DrawnMotion]:
@@ -299,9 +299,9 @@ def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Arra
     of those beside it and before and after an event.
     """
     beside = np.searchsorted(at, peak_at)[:, np.newaxis] + np.arange(-2, 3)
-    found = values[np.clip(beside, 0, len(values) - 1)]
-    nearest = np.argmin(np.abs(np.abs(found) - peaks[:, np.newaxis]), axis=1)
-    signed: _Array = np.copysign(peaks, found[np.arange(len(peaks)), nearest])
+    neighbours = values[np.clip(beside, 0, len(values) - 1)]
+    nearest = np.argmin(np.abs(np.abs(neighbours) - peaks[:, np.newaxis]), axis=1)
+    signed: _Array = np.copysign(peaks, neighbours[np.arange(len(peaks)), nearest])
     return signed
 
 

@@ -53,7 +53,7 @@ class Drawing(Figure):
         ):
             warnings.simplefilter("always")
             super().savefig(*args, **how)
-        missing = [found[1] for one in seen if (found := _MISSING.match(str(one.message)))]
+        missing = [match[1] for one in seen if (match := _MISSING.match(str(one.message)))]
         for one in seen:
             if not _MISSING.match(str(one.message)):
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)

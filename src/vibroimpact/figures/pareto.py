@@ -147,8 +147,8 @@ def _name_points(
     lines = []
     for number, k in enumerate(chosen, start=1):
         at = np.unravel_index(order[k], data["pareto"].shape)
-        told = [_told(data[dim][i]) for dim, i in zip(dims, at, strict=True)]
-        lines.append(f"{number}  {', '.join(told)}")
+        values = [_told(data[dim][i]) for dim, i in zip(dims, at, strict=True)]
+        lines.append(f"{number}  {', '.join(values)}")
         ax.annotate(
             str(number),
             (u[order[k]], a[order[k]]),

@@ -47,10 +47,10 @@ def phase_portrait(
     InputError
         If a dataset does not hold a motion with samples.
     """
-    given = named(motions, records=True)
+    named_motions = named(motions, records=True)
     ax = axes_or_new(ax, (5.2, 4.4), title)
-    curves = shown(given)
-    for curve, motion in zip(curves, given.values(), strict=True):
+    curves = shown(named_motions)
+    for curve, motion in zip(curves, named_motions.values(), strict=True):
         u, v = in_unit(1e3) * curve.values["displacement"], curve.values["velocity"]
         long = curve.at[-1] - curve.at[0] > 20.0
         ax.plot(
@@ -83,7 +83,7 @@ def phase_portrait(
             rasterized=len(whole) > _MOST_VECTORS,
         )
     gap_lines(ax, curves, horizontal=False)
-    ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
-    ax.set_ylabel(base_label("relative velocity $\\dot u$ (m/s)", given.values()))
+    ax.set_xlabel(base_label("relative displacement $u$ (mm)", named_motions.values()))
+    ax.set_ylabel(base_label("relative velocity $\\dot u$ (m/s)", named_motions.values()))
     name_lines(ax, curves)
     return ax

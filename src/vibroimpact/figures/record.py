@@ -58,9 +58,9 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     """
     stops = stops_of(motion)
     names = "base acceleration, displacement, acceleration and velocity"
-    given = panels(axes, 4, names, (7.2, 8.6), title)
+    panel_axes = panels(axes, 4, names, (7.2, 8.6), title)
     time = motion["time"].values
-    for ax, (variable, factor, label) in zip(given, _ROWS, strict=True):
+    for ax, (variable, factor, label) in zip(panel_axes, _ROWS, strict=True):
         ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
         ax.plot(
             time, in_unit(factor) * motion[variable].values, color="black", linewidth=0.9, zorder=3
@@ -71,25 +71,25 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
             contact_bands(ax, motion)
         if "acceleration" in variable:
             also_in_g(ax)
-    gap_lines(given[1], stops)
+    gap_lines(panel_axes[1], stops)
     hit = motion["event_contact"].values == 2
-    given[1].scatter(
+    panel_axes[1].scatter(
         motion["event_time"].values[hit],
         in_unit(1e3) * motion["event_displacement"].values[hit],
         s=10,
         color="black",
         zorder=4,
     )
-    given[3].set_xlabel("time (s)")
+    panel_axes[3].set_xlabel("time (s)")
     handles = stops_legend(stops, motion)
     if hit.any():
         handles.append(
             Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
         )
-    handles += mark_end(given, motion)
+    handles += mark_end(panel_axes, motion)
     if handles:
-        add_legend(given[1], handles)
-    return given
+        add_legend(panel_axes[1], handles)
+    return panel_axes
 
 
 def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:

@@ -51,7 +51,7 @@ def resonance_curves(
     data: xr.Dataset,
     axes: Any = None,
     *,
-    found: Features | None = None,
+    curve_features: Features | None = None,
     title: str | None = None,
     physical: bool | None = None,
     measured: xr.Dataset | None = None,
@@ -75,7 +75,7 @@ def resonance_curves(
     axes
         Axes to draw on: two for η_a and η_d, or one per physical quantity; and one for each own
         output. Default: a new figure.
-    found
+    curve_features
         Features (resonances, jumps and hysteresis) that are marked. Default: the features are
         computed from the curves.
     title
@@ -106,7 +106,7 @@ def resonance_curves(
     refuse_masses(data, "mass_resonance")
     if is_measured(data) and "motion" not in data:
         return measured_curves(data, axes, title=title)
-    found = features(data) if found is None else found
+    curve_features = features(data) if curve_features is None else curve_features
     if measured is not None:
         measured = as_measured(measured, "measured")
     if physical is None:
@@ -116,22 +116,25 @@ def resonance_curves(
     names = [one.name for one in drawn]
     drawn += outputs(data)
     what = " and ".join(one.name for one in drawn)
-    given = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
-    for ax, one in zip(given, drawn, strict=True):
-        _panel(ax, data, found, one, marked=measured is None)
+    panel_axes = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
+    for ax, one in zip(panel_axes, drawn, strict=True):
+        _panel(ax, data, curve_features, one, marked=measured is None)
         ax.set_ylabel(one.label)
-    upper = given[0]
-    given[-1].set_xlabel("excitation frequency $f$ (Hz)")
+    upper = panel_axes[0]
+    panel_axes[-1].set_xlabel("excitation frequency $f$ (Hz)")
     frequency = data["frequency"].values
     sides = {
-        _side(frequency, one, item) for one in drawn for item in found.hysteresis if item.settled
+        _side(frequency, one, item)
+        for one in drawn
+        for item in curve_features.hysteresis
+        if item.settled
     }
     entries = _legend(data, sides, marked=measured is None)
     entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
-        entries += measured_points(given[: len(names)], names, data, measured)
+        entries += measured_points(panel_axes[: len(names)], names, data, measured)
     add_legend(upper, entries, columns=2 if len(entries) <= 4 else 3)
-    return given
+    return panel_axes
 
 
 def _side(frequency: NDArray[np.float64], drawn: Drawn, item: Hysteresis) -> str:
@@ -142,13 +145,15 @@ def _side(frequency: NDArray[np.float64], drawn: Drawn, item: Hysteresis) -> str
     return item.side if total == 0.0 else "right" if total > 0.0 else "left"
 
 
-def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked: bool) -> None:
+def _panel(
+    ax: Axes, data: xr.Dataset, curve_features: Features, drawn: Drawn, *, marked: bool
+) -> None:
     frequency = data["frequency"].values
     margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
     ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)
     ax.set_ylim(1.06 * drawn.bottom, 1.06 * drawn.top)
 
-    for item in found.hysteresis:
+    for item in curve_features.hysteresis:
         if item.settled:
             ax.axvspan(
                 *item.ends,
@@ -164,7 +169,9 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
         ax.plot(frequency, drawn.free, label=FREE.label, zorder=2, **FREE.line)
     # Of a part of a sweep its own jumps alone.
     jumps = [
-        jump for jump in found.jumps if jump.settled and {jump.before, jump.after} <= set(frequency)
+        jump
+        for jump in curve_features.jumps
+        if jump.settled and {jump.before, jump.after} <= set(frequency)
     ]
     for layer, (direction, look) in enumerate(sweeps_of(data)):
         mine = [jump for jump in jumps if jump.direction == direction]

@@ -78,13 +78,13 @@ class Drawn(NamedTuple):
 
 def normalised(data: xr.Dataset) -> list[Drawn]:
     """Return the panels of η_a and η_d, and of the transmissibility under a force on the mass."""
-    found = []
+    panels = []
     for symbol, kind, words in (
         ("a", "acceleration", "absolute acceleration"),
         ("d", "displacement", "relative displacement"),
     ):
         free = f"free_{kind}_excursion"
-        found.append(
+        panels.append(
             Drawn(
                 f"η_{symbol}",
                 base_label(f"normalised excursion of\n{words} $\\eta_{symbol}$ (–)", [data]),
@@ -97,17 +97,17 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
         carried = data["free_transmitted_force_excursion"].values / exciting.values
         curves = _curves(data, "transmissibility", 1.0)
         label = "transmissibility\nof the force (–)"
-        found.append(Drawn("transmissibility", label, curves, carried))
-    return found
+        panels.append(Drawn("transmissibility", label, curves, carried))
+    return panels
 
 
 def outputs(data: xr.Dataset) -> list[Drawn]:
     """Return the panels of own outputs."""
-    found = []
+    panels = []
     for name in own_outputs(data):
         factor, label = axis_label(data[name], name)
-        found.append(Drawn(name, label, _curves(data, name, factor), None))
-    return found
+        panels.append(Drawn(name, label, _curves(data, name, factor), None))
+    return panels
 
 
 def draws_eta(data: xr.Dataset) -> bool:
@@ -162,7 +162,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     swing = in_unit(1e3) * 0.5 * data["free_displacement_excursion"].values
     swings = _curves(data, "peak_displacement", in_unit(1e3))
     gaps = _gaps(rig, SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values()))
-    found = [
+    panels = [
         Drawn(
             "acceleration",
             "largest absolute\nacceleration (g)",
@@ -180,13 +180,13 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         ),
     ]
     if "acceleration" in halves:
-        found[0] = found[0]._replace(
+        panels[0] = panels[0]._replace(
             label="half the excursion of\nabsolute acceleration (g)",
             curves=_curves(data, "acceleration_excursion", 0.5 * in_unit(1.0 / GRAVITY)),
         )
     if "displacement" in halves:  # whose middle is that between the stops where all is symmetric
         even = rig is not None and rig.left == rig.right and rest is not None and abs(rest) < _NIL
-        found[1] = found[1]._replace(
+        panels[1] = panels[1]._replace(
             label=base_label("half the excursion of\nrelative displacement (mm)", [data]),
             curves=_curves(data, "displacement_excursion", 0.5 * in_unit(1e3)),
             free=swing,
@@ -198,7 +198,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         load = 0.0 if rig is None else abs(rig.force)
         free = (0.5 * data["free_transmitted_force_excursion"].values + load) / unit.size
         label = f"largest transmitted\nforce ({unit.symbol})"
-        found.append(Drawn("transmitted force", label, curves, free, spike=spike))
+        panels.append(Drawn("transmitted force", label, curves, free, spike=spike))
     for words, quantity in (("force", FORCE), ("impulse", IMPULSE)):
         sizes = _curves(data, f"peak_{words}", 1.0)
         # No impact on a rigid stop has a finite force.
@@ -207,8 +207,8 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         if largest > 0.0:
             unit = quantity.unit(largest)
             curves = {key: size / unit.size for key, size in known.items()}
-            found.append(Drawn(words, f"largest contact\n{words} ({unit.symbol})", curves, None))
-    return found
+            panels.append(Drawn(words, f"largest contact\n{words} ({unit.symbol})", curves, None))
+    return panels
 
 
 def peak_force_unit(data: xr.Dataset) -> Scale:

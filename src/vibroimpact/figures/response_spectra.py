@@ -63,9 +63,9 @@ def response_spectra(
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {unknown(quantity, _LABELS)}")
-    given = _named(spectrum)
+    datasets = _named(spectrum)
     factor, label = _LABELS[quantity]
-    every = [(name, curve) for name, one in given.items() for curve in _curves(one[quantity])]
+    every = [(name, curve) for name, one in datasets.items() for curve in _curves(one[quantity])]
     if len(every) > _MOST:
         raise InputError(
             f"spectrum: {len(every)} curves; at most {_MOST} can be distinguished, so select fewer "
@@ -76,7 +76,7 @@ def response_spectra(
     groups = [(name, _orientation(curve)) for name, curve in every]
     numbers = {group: number for number, group in enumerate(dict.fromkeys(groups))}
     grouped = len(numbers) > 1
-    periods = np.concatenate([one["natural_period"].values for one in given.values()])
+    periods = np.concatenate([one["natural_period"].values for one in datasets.values()])
     for i, (group, (name, curve)) in enumerate(zip(groups, every, strict=True)):
         shown = curve["natural_period"].values > 0.0
         words = [literal(name), group[1], f"$\\zeta$ = {float(curve['damping_ratio']):g}"]
@@ -105,17 +105,17 @@ def response_spectra(
 def _named(spectrum: Any) -> dict[str, xr.Dataset]:
     """Return the spectra by name, a single one without a name."""
     # A dataset is a mapping, too.
-    given = by_name(spectrum)
-    if not given:
+    datasets = by_name(spectrum)
+    if not datasets:
         raise InputError("spectrum: empty; pass at least one result of response_spectrum")
-    for name, one in given.items():
+    for name, one in datasets.items():
         if not isinstance(one, xr.Dataset) or one.sizes.get("natural_period", 0) < 2:
             what = "a Record" if isinstance(one, Record) else "not a response spectrum over periods"
             raise InputError(
                 f"spectrum{f'[{name!r}]' if name else ''}: this is {what}; pass the result of "
                 "response_spectrum with at least two periods"
             )
-    return given
+    return datasets
 
 
 def _orientation(curve: xr.DataArray) -> str:

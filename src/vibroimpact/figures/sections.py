@@ -232,8 +232,8 @@ def _places(branches: xr.Dataset, quantity: str, masses: Sequence[str]) -> list[
     """Return the components of the orbits' states that the panels show; None at impacts."""
     part = quantity.removeprefix("section_")
     components = set(branches["component"].values.tolist())
-    found = [part] if part in components else [f"{part}.{mass}" for mass in masses]
-    return found if components.issuperset(found) else None
+    places = [part] if part in components else [f"{part}.{mass}" for mass in masses]
+    return places if components.issuperset(places) else None
 
 
 def _at_section(states: xr.DataArray, place: str, phase: float) -> _Array:

@@ -243,12 +243,12 @@ def panels(
         if title:
             figure.suptitle(title)
         return Panels(made.ravel()[:count])
-    given = Panels(np.ravel(axes))
-    if len(given) != count:
-        raise InputError(f"axes: {len(given)} Axes; pass {count} ({what})")
-    for ax in given:
+    panel_axes = Panels(np.ravel(axes))
+    if len(panel_axes) != count:
+        raise InputError(f"axes: {len(panel_axes)} Axes; pass {count} ({what})")
+    for ax in panel_axes:
         lay_out(ax)
-    return given
+    return panel_axes
 
 
 def lay_out(ax: Axes) -> None:

@@ -145,7 +145,7 @@ def _untold(
     rows: Array,
     states: Array,
     size: Array,
-    told: list[int | None],
+    matches: list[int | None],
     plain: NDArray[np.bool_],
 ) -> dict[int, Array]:
     """The other branch beside each jump of the rig that no jump of the test stands for."""
@@ -153,20 +153,20 @@ def _untold(
     around = np.zeros(len(change) + 2)
     around[1:-1] = change
     beside = np.maximum(around[:-2], around[2:])
-    found: dict[int, Array] = {}
+    others: dict[int, Array] = {}
     f = way.frequency
     for i in np.flatnonzero((change > _LEAST) & (change > _STEEPER * beside)) + 1:
-        if i in told or not (plain[i - 1] and plain[i]):
+        if i in matches or not (plain[i - 1] and plain[i]):
             continue
         ends = (f[i - 1], f[i])
         _, old, _, real = _halved(rig, ends, states[i - 1], size[i - 1 : i + 1], rows[i], _FEWER)
         if not real:
             continue
-        found[int(i)] = old
+        others[int(i)] = old
         (back,), _ = rig.sweep(f[i - 1 : i], states[i])
         if np.abs(sizes(back) - size[i]).max() < np.abs(sizes(back) - size[i - 1]).max():
-            found[int(i) - 1] = back
-    return found
+            others[int(i) - 1] = back
+    return others
 
 
 def _matched(change: Array, way: Way) -> list[int | None]:
@@ -218,20 +218,20 @@ def _mend(
     )
     if real:  # too late: the new branch is followed back
         back = f[at:place][::-1]
-        found, there = rig.sweep(back, states[place])
-        seen = sizes(found)
+        branch, there = rig.sweep(back, states[place])
+        seen = sizes(branch)
         was = size[at:place][::-1]
         state, last, before = states[place], rows[place], size[place]
         for i in range(len(back)):
             if np.abs(seen[i] - was[i]).max() < np.abs(seen[i] - before).max():
                 ends = (f[place] if i == 0 else back[i - 1], back[i])
-                _, last, _, _ = _halved(rig, ends, state, np.stack([before, seen[i]]), found[i])
+                _, last, _, _ = _halved(rig, ends, state, np.stack([before, seen[i]]), branch[i])
                 last = last if np.isfinite(last).all() else rows[place]
-                found[i:] = last
+                branch[i:] = last
                 clamped[at : place - i] = True
                 break
-            state, last, before = there[i], found[i], seen[i]
-        taken[at:place] = found[::-1]
+            state, last, before = there[i], branch[i], seen[i]
+        taken[at:place] = branch[::-1]
     return max(float(abs(edge - f[at]) - abs(f[at] - f[at - 1])), 0.0)
 
 
@@ -251,9 +251,9 @@ def _carried_on(
     at, place = jump
     ends = f[place - 1 : at]
     fine = np.concatenate([np.linspace(a, b, _PARTS + 1)[1:] for a, b in pairwise(ends)])
-    found, there = rig.sweep(fine, state)
+    branch, there = rig.sweep(fine, state)
     before, after = size
-    seen = np.concatenate([before[np.newaxis], sizes(found)])
+    seen = np.concatenate([before[np.newaxis], sizes(branch)])
     steps = np.diff(seen, axis=0)
     along = steps @ (after - before)
     last = int(np.argmax(along))
@@ -264,14 +264,14 @@ def _carried_on(
         low = float(ends[0]) if last == 0 else float(fine[last - 1])
         begin = state if last == 0 else there[last - 1]
         edge, old, _, real = _halved(
-            rig, (low, float(fine[last])), begin, seen[last : last + 2], found[last]
+            rig, (low, float(fine[last])), begin, seen[last : last + 2], branch[last]
         )
         if real:
-            found[last:] = old
+            branch[last:] = old
             count = last
     for k in range(place, at):
         i = (k - place + 1) * _PARTS - 1
-        taken[k] = found[i]
+        taken[k] = branch[i]
         clamped[k] = i >= count
     return abs(edge - float(f[at - 1])) if count < len(fine) else 0.0
 

@@ -138,7 +138,7 @@ class CurveTest:
 
     def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass goes to the right and to the left at the holds (m)."""
-        held = HoldRows(np.concatenate([found.rows for found in self.followed(rig)]))
+        held = HoldRows(np.concatenate([sweep.rows for sweep in self.followed(rig)]))
         right, left = held.displacement_max.max(), -held.displacement_min.min()
         return float(np.nan_to_num(right, nan=np.inf)), float(np.nan_to_num(left, nan=np.inf))
 
@@ -193,13 +193,13 @@ class CurveTest:
         settled = np.empty(len(values), dtype=bool)
         normalised = any(name.startswith("eta") for name in self.names)
         largest = reference_excursions(rig) if normalised else (1.0, 1.0)
-        for w, found in enumerate(followed):
+        for w, sweep in enumerate(followed):
             here = self.points.way == w
             at = self.points.hold[here]
-            settled[here] = found.settled[at]
-            shown = self._shown(found.rows, largest, sensors)
+            settled[here] = sweep.settled[at]
+            shown = self._shown(sweep.rows, largest, sensors)
             values[here] = shown[at, self.points.variable[here]]
-            for place, row in self._others(rig, found):
+            for place, row in self._others(rig, sweep):
                 here = (self.points.way == w) & (self.points.hold == place)
                 of = self.points.variable[here]
                 other = self._shown(row[np.newaxis], largest, sensors)[0, of]
@@ -207,18 +207,18 @@ class CurveTest:
                     values[here] = other
         return values, settled
 
-    def _others(self, rig: Rig, found: Followed) -> list[tuple[int, Array]]:
+    def _others(self, rig: Rig, sweep: Followed) -> list[tuple[int, Array]]:
         """What else the rig may do at a hold: on another branch, or as the mirror image.
 
         Which one of two mirrored motions a mass settles on hangs on the last digits of the rig.
         """
-        others = list(found.other.items())
+        others = list(sweep.other.items())
         oscillator, shaken = rig.oscillator, rig.periodic
         if oscillator.symmetric and shaken.half_wave and set(self.names) & _EXTREMES:
-            held = HoldRows(found.rows)
+            held = HoldRows(sweep.rows)
             most, least = held.displacement_max, held.displacement_min
             uneven = np.flatnonzero(np.abs(most + least) > _UNEVEN * (most - least))
-            every = [*((int(i), found.rows[i]) for i in uneven), *others]
+            every = [*((int(i), sweep.rows[i]) for i in uneven), *others]
             others += [(place, _mirrored(row)) for place, row in every]
         return others
 
@@ -268,7 +268,7 @@ class CurveTest:
         lost = ~np.isfinite(points)
         points[lost] = 3.0  # given up: as if it were off by a factor of 20
         points /= self.shares
-        off = np.concatenate([found.off for found in followed])
+        off = np.concatenate([sweep.off for sweep in followed])
         jumps = off / (_JUMP * self.steps)
         return np.concatenate([points, jumps]), np.concatenate([settled & ~lost, jumps > 0.0])
 
@@ -309,10 +309,10 @@ def told_jumps(data: xr.Dataset) -> list[Jump]:
     wide = [h for h in seen.hysteresis if both or h.low < h.high]
     ends = {(h.high, h.above) for h in wide} | {(h.below, h.low) for h in wide}
     least = max(APART, _NOISES * noise_of(swept(data)))  # of the means of what was held again
-    found = []
+    jumps = []
     for jump in seen.jumps:
         step = (min(jump.before, jump.after), max(jump.before, jump.after))
         change = [abs(np.log(b / a)) for a, b in (jump.eta_a, jump.eta_d) if a > 0.0 and b > 0.0]
         if min(change, default=0.0) > (least if step in ends else _LARGE):
-            found.append(jump)
-    return found
+            jumps.append(jump)
+    return jumps

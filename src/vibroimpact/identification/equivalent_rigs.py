@@ -66,19 +66,19 @@ def rivals(
     least, best = known[0]
     if factor * (here - least) < _EQUAL:
         least, best = here, x
-    found = []
+    candidates = []
     image = mirror_image(problem, best)
     if image is not None:
         rise = factor * (problem.cost(image) - least)
         if _EQUAL < rise < _HOPELESS * limit:
             refined = local(problem, image, precise=True)
             image, rise = refined.x, factor * (refined.cost - least)
-        found.append(Rival(image, rise, mirrored=True))
+        candidates.append(Rival(image, rise, mirrored=True))
     count = len(problem.free)
     for cost, place in known:
-        if all(far(place, one, count) > _APART for one in (best, *(r.x for r in found))):
-            found.append(Rival(place, factor * (cost - least), mirrored=False))
-    return best, [one for one in found if one.rise < limit]
+        if all(far(place, one, count) > _APART for one in (best, *(r.x for r in candidates))):
+            candidates.append(Rival(place, factor * (cost - least), mirrored=False))
+    return best, [one for one in candidates if one.rise < limit]
 
 
 def mirror_image(problem: Problem, x: Array) -> Array | None:

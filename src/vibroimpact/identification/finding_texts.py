@@ -40,15 +40,15 @@ def findings(
     data: xr.Dataset,
     problem: Problem,
     x: Array,
-    found: SearchResult,
+    fits: SearchResult,
     judged: list[Structure],
     idle: Untouched,
 ) -> list[str]:
     """Lines about how well a fit is known, what is not determined, and what the model lacks."""
     first: list[str] = []  # what makes the rest meaningless
     lines = [
-        f"{found.alike} of {found.starts} start{'' if found.starts == 1 else 's'} reached this fit"
-        + ("" if found.alike >= _FEW else "; more starts may find a better one")
+        f"{fits.alike} of {fits.starts} start{'' if fits.starts == 1 else 's'} reached this fit"
+        + ("" if fits.alike >= _FEW else "; more starts may find a better one")
     ]
     lines += _alternatives(data, problem, x)
     lines += [
@@ -107,7 +107,7 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
         for number in range(data.sizes["alternative"]):
             rival = data.isel(alternative=number)
             values = rival["alternative_value"].values
-            told = ", ".join(
+            changes = ", ".join(
                 f"{free.key} {pretty(float(values[i]), free.quantity, 4)} (instead of "
                 f"{pretty(float(here[i]), free.quantity, 4)})"
                 for i, free in enumerate(problem.free)
@@ -116,9 +116,9 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
             mirrored = bool(rival["alternative_mirrored"])
             exchanged = exchanged or mirrored
             lines.append(
-                f"with right and left exchanged, the rig fits equally well: {told}; {_BLIND}"
+                f"with right and left exchanged, the rig fits equally well: {changes}; {_BLIND}"
                 if mirrored
-                else f"another rig fits equally well: {told}"
+                else f"another rig fits equally well: {changes}"
             )
     asked = any(one.name.startswith(("stops.right.", "stops.left.")) for one in problem.free)
     uneven = any(not problem.rig_of(x, test)[0].oscillator.symmetric for test in problem.tests)
@@ -164,10 +164,10 @@ def _of(data: xr.Dataset, problem: Problem, number: int, idle: Untouched) -> str
 
 def amplitude_words(shaken: Any, source: str) -> str:
     """The peak base acceleration of a test, and where it is from; that alone if it was measured."""
-    told = f"from {in_one_line(source)}" if source else ""
+    origin = f"from {in_one_line(source)}" if source else ""
     if source == BASE or not isinstance(shaken, Harmonic):
-        return told
-    return ", ".join(filter(None, [pretty(shaken.amplitude, ACCELERATION, 4), told]))
+        return origin
+    return ", ".join(filter(None, [pretty(shaken.amplitude, ACCELERATION, 4), origin]))
 
 
 def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:

@@ -43,7 +43,7 @@ def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) 
         If one of them cannot be used, or its amplitude is not known.
     """
     named = _named(data)
-    found: list[Test] = []
+    tests: list[Test] = []
     for name, one in named.items():
         where = f"data[{name!r}]" if len(named) > 1 else "data"
         measured = as_measured(one, where)
@@ -58,8 +58,8 @@ def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) 
         else:
             test = HistoryTest(name, measured, shaken, share, window, steady)
         test.data = test.data.assign_attrs(unused_shaking="\n".join(_unused(tested, test, source)))
-        found.append(test)
-    return found
+        tests.append(test)
+    return tests
 
 
 def _named(data: Any) -> dict[str, Any]:
@@ -80,22 +80,22 @@ def _named(data: Any) -> dict[str, Any]:
     return named
 
 
-def _of(given: Any, name: str, names: list[str], field: str) -> Any:
+def _of(setting: Any, name: str, names: list[str], field: str) -> Any:
     """What belongs to one test: the same for all, one by name, or one by position."""
-    if isinstance(given, Mapping):
-        if name not in given:
+    if isinstance(setting, Mapping):
+        if name not in setting:
             raise InputError(
                 f"{field}: missing for the test {name!r}; pass a value for each test: "
                 f"{', '.join(names)}"
             )
-        return given[name]
-    if isinstance(given, list):
-        if len(given) != len(names):
+        return setting[name]
+    if isinstance(setting, list):
+        if len(setting) != len(names):
             raise InputError(
-                f"{field}: {len(given)} values for {len(names)} tests; pass one value per test"
+                f"{field}: {len(setting)} values for {len(names)} tests; pass one value per test"
             )
-        return given[names.index(name)]
-    return given
+        return setting[names.index(name)]
+    return setting
 
 
 def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
@@ -194,7 +194,7 @@ def ties_of(ties: Mapping[str, str] | None, rig: Rig) -> dict[str, str]:
     """
     if not isinstance(ties, Mapping | None):
         raise InputError(f"ties: {shown(ties)}; pass a mapping such as {{'left.gap': 'right.gap'}}")
-    found = {}
+    names = {}
     for tied, to in (ties or {}).items():
-        found[parameter(tied, rig, "ties").name] = parameter(to, rig, "ties").name
-    return found
+        names[parameter(tied, rig, "ties").name] = parameter(to, rig, "ties").name
+    return names

@@ -73,7 +73,7 @@ class Free(NamedTuple):
 
 
 def frees(
-    given: Any,
+    free: Any,
     rigs: Mapping[str, Rig],
     each: Any,
     priors: Any,
@@ -83,7 +83,7 @@ def frees(
 
     Parameters
     ----------
-    given
+    free
         Names, as a list or a string with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
     rigs
@@ -100,12 +100,12 @@ def frees(
     InputError
         If a name is unknown, or a value cannot be used.
     """
-    if not isinstance(given, Mapping):
-        given = dict.fromkeys(_names(given, "free"))
-    if not given:
+    if not isinstance(free, Mapping):
+        free = dict.fromkeys(_names(free, "free"))
+    if not free:
         raise InputError("free: empty; pass the name of at least one parameter, such as 'gap'")
     known_names = parameters(next(iter(rigs.values())))
-    wanted = {_name(name, known_names): value for name, value in given.items()}
+    wanted = {_name(name, known_names): value for name, value in free.items()}
     own = {_name(name, known_names, "each") for name in _names(each, "each")}
     if not isinstance(priors, Mapping | None):
         raise InputError(
@@ -119,25 +119,25 @@ def frees(
                 f"{field}: {sorted(strange)[0]!r} is not free; add it to free, or use one of the "
                 f"free parameters: {', '.join(wanted)}"
             )
-    found = []
+    free_list = []
     for name, value in wanted.items():
         for test in rigs if name in own else [None]:
             first = next(iter(rigs)) if test is None else test
             swing = (swings or {}).get(first, 0.0)
-            found.append(_free(name, test, value, rigs[first], known.get(name), swing))
-    return found
+            free_list.append(_free(name, test, value, rigs[first], known.get(name), swing))
+    return free_list
 
 
-def _names(given: Any, field: str) -> list[str]:
+def _names(listing: Any, field: str) -> list[str]:
     """Names from a string with commas or a list of them."""
-    if given is None:
+    if listing is None:
         return []
-    if isinstance(given, str):
-        return [name.strip() for name in given.split(",")] if given or field == "free" else []
-    names = list(given) if isinstance(given, Iterable) else [given]
+    if isinstance(listing, str):
+        return [name.strip() for name in listing.split(",")] if listing or field == "free" else []
+    names = list(listing) if isinstance(listing, Iterable) else [listing]
     if not all(isinstance(name, str) for name in names):
         raise InputError(
-            f"{field}: {shown(given)}; pass a list of names, or a string such as 'gap, mass'"
+            f"{field}: {shown(listing)}; pass a list of names, or a string such as 'gap, mass'"
         )
     return names
 
@@ -267,7 +267,7 @@ def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
 
 
 def written(
-    given: Sequence[Free],
+    free_list: Sequence[Free],
     values: Array | Sequence[float],
     rig: Rig,
     test: str,
@@ -277,7 +277,7 @@ def written(
     sensors = {name: right for name, (_, right) in SENSORS.items()}
     here = {
         one.name: float(value)
-        for one, value in zip(given, values, strict=True)
+        for one, value in zip(free_list, values, strict=True)
         if one.test in (None, test)
     }
     sensors |= {name: value for name, value in here.items() if name in SENSORS}

@@ -141,12 +141,12 @@ class HistoryTest:
                 "moves"
             )
         if base is None:
-            found = shaken.replace(frequency=sine.frequency)
-            return Rig(rig.oscillator, found), found
+            harmonic = shaken.replace(frequency=sine.frequency)
+            return Rig(rig.oscillator, harmonic), harmonic
         still = np.nanmax(np.abs(base)) == 0.0
         if sine.rest < _PURE and not still:
-            found = Harmonic(sine.amplitude, sine.frequency, sine.phase % (2.0 * math.pi))
-            return Rig(rig.oscillator, found), found
+            harmonic = Harmonic(sine.amplitude, sine.frequency, sine.phase % (2.0 * math.pi))
+            return Rig(rig.oscillator, harmonic), harmonic
         step = float(np.median(np.diff(self.time)))
         even = np.arange(round(float(self.time[-1]) / step) + 1) * step
         known = np.isfinite(base)
@@ -198,8 +198,10 @@ class HistoryTest:
         states = self.unknowns[0][1:]
         costs = []
         for phase in shares:
-            found, _ = self.residuals(self.rig, self._sensors, np.concatenate([[phase], states]))
-            costs.append(np.sum(np.abs(found[: self.points_count])))
+            residuals, _ = self.residuals(
+                self.rig, self._sensors, np.concatenate([[phase], states])
+            )
+            costs.append(np.sum(np.abs(residuals[: self.points_count])))
         return float(shares[int(np.argmin(costs))])
 
     @property
@@ -225,8 +227,8 @@ class HistoryTest:
 
     def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass goes to the right and to the left (m)."""
-        found = self.moved(rig, unknowns)
-        return (math.inf, math.inf) if found is None else found.reach
+        motion = self.moved(rig, unknowns)
+        return (math.inf, math.inf) if motion is None else motion.reach
 
     @property
     def points_count(self) -> int:
@@ -292,17 +294,17 @@ class HistoryTest:
             last = k + 1 == len(self.windows)
             time = self.time[window.begin : window.end + (0 if last else 1)]
             if self.steady:
-                found = self._settled(rig, window.state, phase, time)
+                motion = self._settled(rig, window.state, phase, time)
             else:
                 state = State(*states[2 * k : 2 * k + 2].tolist())
-                found = self._from(rig, state, phase, time)
-            if found is None:
+                motion = self._from(rig, state, phase, time)
+            if motion is None:
                 return None
-            reach = (max(reach[0], found.reach[0]), max(reach[1], found.reach[1]))
+            reach = (max(reach[0], motion.reach[0]), max(reach[1], motion.reach[1]))
             for c in _CHANNELS:
-                values[c][window.begin : window.end] = found.values[c][: window.end - window.begin]
+                values[c][window.begin : window.end] = motion.values[c][: window.end - window.begin]
             if not last:
-                gaps += [a - b for a, b in zip(found.end, states[2 * k + 2 : 2 * k + 4],
+                gaps += [a - b for a, b in zip(motion.end, states[2 * k + 2 : 2 * k + 4],
                                                strict=True)]  # fmt: skip
         return Joined(values, np.array(gaps), reach)
 
@@ -328,30 +330,30 @@ class HistoryTest:
         """The steady motion that the measured state leads to."""
         shaken = rig.sine
         at = shaken.phase if phase is None else phase % (2.0 * math.pi)
-        found = SteppedRig(rig).settled(State(*start), shaken.frequency, at)
+        state = SteppedRig(rig).settled(State(*start), shaken.frequency, at)
         turned = Rig(rig.oscillator, shaken.replace(phase=at))
-        return None if found is None else under_sine(turned, found, time)
+        return None if state is None else under_sine(turned, state, time)
 
     def model(
         self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[dict[str, Array], Array] | None:
         """What the sensors would show of the rig's motion; see `moved`."""
         try:
-            found = self.moved(rig, unknowns)
+            motion = self.moved(rig, unknowns)
         except InputError:  # a state that cannot be, such as inside a rigid stop
             return None
-        if found is None:
+        if motion is None:
             return None
-        return {c: sensed(c, found.values[c], sensors) for c in self.names}, found.gaps
+        return {c: sensed(c, motion.values[c], sensors) for c in self.names}, motion.gaps
 
     def residuals(
         self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[Array, NDArray[np.bool_]]:
         """Of points over the noise of their channel; of the joints over that of the state."""
-        found = self.model(rig, sensors, unknowns)
-        if found is None:
+        model = self.model(rig, sensors, unknowns)
+        if model is None:
             return np.full(self.count, _ROUGH), np.zeros(self.count, dtype=bool)
-        values, gaps = found
+        values, gaps = model
         parts = []
         for c in self.names:
             known = np.isfinite(self.measured[c])
@@ -376,8 +378,8 @@ class HistoryTest:
 
     def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
-        found = self.model(rig, sensors, unknowns)
-        values = {} if found is None else found[0]
+        model = self.model(rig, sensors, unknowns)
+        values = {} if model is None else model[0]
         place, variable, measured, modelled, residual = [], [], [], [], []
         for c in self.names:
             known = np.isfinite(self.measured[c])

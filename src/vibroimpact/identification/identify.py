@@ -155,19 +155,21 @@ def identify(
     threads = threads or os.cpu_count() or 1
     tests = tests_of(rig, data, noise, window, steady)
     swings = {t.name: t.swing for t in tests}
-    given = frees(free, {t.name: t.rig for t in tests}, each, priors, swings)
-    if any(one.name == "amplitude" for one in given):
+    free_list = frees(free, {t.name: t.rig for t in tests}, each, priors, swings)
+    if any(one.name == "amplitude" for one in free_list):
         for test in tests:
             test.data = test.data.assign_attrs(amplitude_source="the fit")
     for test in tests:
         warn_of_input(f"data {test.name!r}", test.data.attrs["unused_shaking"].splitlines())
     for test in tests:
-        test.calibrate(written(given, [one.start for one in given], test.rig, test.name, {})[1])
+        test.calibrate(
+            written(free_list, [one.start for one in free_list], test.rig, test.name, {})[1]
+        )
     problem = Problem(
-        tests, given, ties_of(ties, tests[0].rig), [max(t.noise, _COARSE) for t in tests], _TAIL
+        tests, free_list, ties_of(ties, tests[0].rig), [max(t.noise, _COARSE) for t in tests], _TAIL
     )
     _enough(problem)
-    steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)
+    steps = 3 + (len(free_list) if profiles else 0) + (1 if draws else 0)
     done = 0
 
     def tell() -> None:
@@ -176,9 +178,9 @@ def identify(
         if progress:
             progress(done, steps)
 
-    found = search(problem, tried, starts, seed, threads)
+    outcome = search(problem, tried, starts, seed, threads)
     tell()
-    x = found.x
+    x = outcome.x
     fixed = [noise is not None] * len(tests)
     tail = _TAIL if robust else np.inf
     for _ in range(_ROUNDS):
@@ -188,14 +190,14 @@ def identify(
     problem = problem.replaced(sigma=noises(problem, x, fixed))
     tell()
     around = spread(problem, x)
-    best, others = rivals(problem, x, found.others, limit_of(confidence, around.freedom))
+    best, others = rivals(problem, x, outcome.others, limit_of(confidence, around.freedom))
     if best is not x:
         x, around = best, spread(problem, best)
     idle = untouched(problem, x)
     tell()
     curves: list[Profile] = []
     if profiles:
-        for number in range(len(given)):
+        for number in range(len(free_list)):
             kept = idle.all - {number} if number in idle.all else ()
             curves.append(profile(problem, x, number, around, confidence, kept))
             tell()
@@ -203,7 +205,7 @@ def identify(
         "bootstrap_value": bootstrap(problem, x, around, draws, seed, threads) if draws else None,
         "posterior_value": (sampled(problem, x, around, posterior, seed) if posterior else None),
     }
-    fit = results.Fit(problem, x, found, around, curves, others, idle)
+    fit = results.Fit(problem, x, outcome, around, curves, others, idle)
     with written_for(*(test.rig for test in tests)):
         return results.labelled(fit, samples, confidence)
 

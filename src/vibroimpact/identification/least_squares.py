@@ -196,8 +196,8 @@ class Problem:
         sizes = [len(t.unknowns[0]) for t in self.tests]
         begin = len(self.free) + sum(sizes[:number])
         own = slice(begin, begin + sizes[number])
-        found: Array = x[own] * self.scale[own]
-        return found
+        unknowns: Array = x[own] * self.scale[own]
+        return unknowns
 
     def values(self, x: Array) -> Values:
         """Residuals of all tests, then those of the priors."""
@@ -206,15 +206,15 @@ class Problem:
         for number, (test, sigma) in enumerate(zip(self.tests, self.sigma, strict=True)):
             try:
                 rig, sensors = self.rig_of(x, test)
-                found, known = test.residuals(rig, sensors, self.of_test(x, number))
+                part, known = test.residuals(rig, sensors, self.of_test(x, number))
             except InputError:
-                found, known = np.full(test.count, LOST * sigma), np.zeros(test.count, dtype=bool)
-            found = found.copy()
+                part, known = np.full(test.count, LOST * sigma), np.zeros(test.count, dtype=bool)
+            part = part.copy()
             points = test.points_count
-            found[:points] /= sigma
+            part[:points] /= sigma
             if np.isfinite(self.tail):
-                found[:points] = softened(found[:points], self.tail)
-            parts.append(found)
+                part[:points] = softened(part[:points], self.tail)
+            parts.append(part)
             smooth.append(known)
         prior = [
             (value * one.scale - one.prior[0]) / one.prior[1]

@@ -86,22 +86,24 @@ def fit_models(
         return ModelFits(fits, None)
     for other in others:
         fits[other] = _other(other, own, data, asked)
-    found = ModelFits(fits, compare_fits(fits))
-    if found.best_name != OWN_MODEL:
-        with bar(f"fitting {found.best_name}") as progress:
+    model_fits = ModelFits(fits, compare_fits(fits))
+    if model_fits.best_name != OWN_MODEL:
+        with bar(f"fitting {model_fits.best_name}") as progress:
             again = {**asked, "draws": draws, "progress": progress}
-            fits[found.best_name] = _finished(found.best_name, found.best, data, again)
-    return found
+            fits[model_fits.best_name] = _finished(
+                model_fits.best_name, model_fits.best, data, again
+            )
+    return model_fits
 
 
 def _other(
-    model: str, found: xr.Dataset, data: list[xr.Dataset], asked: dict[str, Any]
+    model: str, fit: xr.Dataset, data: list[xr.Dataset], asked: dict[str, Any]
 ) -> xr.Dataset:
     """Fit another model to the same data, from the first fit."""
     rigs = {}
-    for test in found["test"].values.tolist():
-        rig = fitted_rig(found, test)
-        depth = _depth(found, rig.oscillator) if model == "hertz" else 0.0
+    for test in fit["test"].values.tolist():
+        rig = fitted_rig(fit, test)
+        depth = _depth(fit, rig.oscillator) if model == "hertz" else 0.0
         rigs[test] = Rig(remodelled(model, rig.oscillator, depth), rig.amplitude)
     return identify(rigs, data, **{**asked_of(model, asked), **_SEARCH})
 
@@ -114,10 +116,10 @@ def _finished(
     return identify(rigs, data, **{**asked_of(model, asked), "starts": 1, "tried": 0})
 
 
-def _depth(found: xr.Dataset, oscillator: Oscillator) -> float:
+def _depth(fit: xr.Dataset, oscillator: Oscillator) -> float:
     """How far the mass goes into a stop (m), about: half the largest excursion less the gap."""
     gap = min(float(stop.gap) for stop in oscillator.stops.values())
-    variable = found["point_variable"].values
-    swing = found["measured_value"].values[variable == "displacement_excursion"]
+    variable = fit["point_variable"].values
+    swing = fit["measured_value"].values[variable == "displacement_excursion"]
     reach = 0.5 * float(np.nanmax(swing)) if len(swing) else 1.5 * gap
     return max(0.7 * (reach - gap), 1e-4 * max(gap, 1e-3))

@@ -122,8 +122,8 @@ def next_test(
     )
     own = float(result["noise"].sel(test=name))
     curves = str(result["test_kind"].sel(test=name).values) == "curves"
-    told = None if noise is None else to_si(noise, DIMENSIONLESS, "noise", above=0.0)
-    share = told if told is not None else max(own, 1e-4) if curves else _NOISE
+    stated_noise = None if noise is None else to_si(noise, DIMENSIONLESS, "noise", above=0.0)
+    share = stated_noise if stated_noise is not None else max(own, 1e-4) if curves else _NOISE
     margin = to_si(margin, DIMENSIONLESS, "margin", minimum=0.0)
     margin = fraction(margin, "margin") if margin else 0.0
     keys = [str(key) for key in result["parameter"].values]
@@ -167,8 +167,8 @@ def _axes(covariance: Array) -> Array:
     """Return the axes of the covariance: columns whose outer products add up to it."""
     error = np.sqrt(np.diag(covariance))
     size, axes = np.linalg.eigh(covariance / np.outer(error, error))
-    found: Array = error[:, np.newaxis] * axes * np.sqrt(np.maximum(size, 0.0))
-    return found
+    scaled_axes: Array = error[:, np.newaxis] * axes * np.sqrt(np.maximum(size, 0.0))
+    return scaled_axes
 
 
 def _slopes(

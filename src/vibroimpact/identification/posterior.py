@@ -61,5 +61,5 @@ def posterior(
     state = np.random.RandomState(seed).get_state()
     sampler.run_mcmc(emcee.State(start, random_state=state), steps)
     kept = sampler.get_chain(discard=int(_BURN * steps), flat=True)
-    found: NDArray[np.float64] = kept[-draws:] * problem.scale[:count]
-    return found
+    samples: NDArray[np.float64] = kept[-draws:] * problem.scale[:count]
+    return samples

@@ -22,14 +22,14 @@ def stray_values(name: str, data: xr.Dataset) -> list[str]:
     for i, j in zip(*np.nonzero(far.any(axis=2)), strict=True):
         way, f = str(data["direction"].values[i]), float(data["frequency"].values[j])
         count, stray = int(known[i, j].sum()), int(far[i, j].sum())
-        told = f"{name}: {way}, {f:.4g} Hz: "
+        line = f"{name}: {way}, {f:.4g} Hz: "
         if count >= _FEW and 2 * stray < count:
-            told += f"{stray} of {count} values {'lies' if stray == 1 else 'lie'} far from the "
-            told += f"others, as if from another motion; leave {'it' if stray == 1 else 'them'} out"
+            line += f"{stray} of {count} values {'lies' if stray == 1 else 'lie'} far from the "
+            line += f"others, as if from another motion; leave {'it' if stray == 1 else 'them'} out"
         else:
-            told += f"its {count} values lie far apart, as if from two motions; keep the values of "
-            told += "one motion"
-        lines.append(told)
+            line += f"its {count} values lie far apart, as if from two motions; keep the values of "
+            line += "one motion"
+        lines.append(line)
     return lines
 
 

@@ -36,7 +36,7 @@ class Fit(NamedTuple):
 
     problem: Problem
     x: Array
-    found: SearchResult
+    outcome: SearchResult
     around: Spread
     curves: list[Profile]
     rivals: list[Rival]
@@ -46,7 +46,7 @@ class Fit(NamedTuple):
 
 def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> xr.Dataset:
     """Put a fit into a dataset."""
-    problem, x, found, around, curves, rivals, idle = fit
+    problem, x, outcome, around, curves, rivals, idle = fit
     count = len(problem.free)
     values = x[:count] * problem.scale[:count]
     keys = [one.key for one in problem.free]
@@ -75,7 +75,7 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
             data[name] = ((name.replace("_value", "_draw"), "parameter"), drawn)
     others = [(one, one.x[:count] * problem.scale[:count]) for one in rivals]
     others = [(one, values) for one, values in others if outside(values, interval)]
-    found = found._replace(alike=came_to(found.near, x, [one.x for one, _ in others], count))
+    outcome = outcome._replace(alike=came_to(outcome.near, x, [one.x for one, _ in others], count))
     if others:
         table = np.array([values for _, values in others])
         data["alternative_value"] = (("alternative", "parameter"), table)
@@ -109,13 +109,13 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
         "names": json.dumps([one.name for one in problem.free]),
         "confidence": confidence,
         "cost": 0.5 * float(np.sum(data["fit_residual"].values ** 2)),
-        "starts": found.starts,
-        "starts_alike": found.alike,
-        "evaluations": found.evaluations,
+        "starts": outcome.starts,
+        "starts_alike": outcome.alike,
+        "evaluations": outcome.evaluations,
         "robust": int(np.isfinite(problem.tail)),
     }
     data.attrs["findings"] = "\n".join(
-        finding_texts.findings(data, problem, x, found, judged, idle)
+        finding_texts.findings(data, problem, x, outcome, judged, idle)
     )
     return describe(
         data,
@@ -176,8 +176,10 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
         size = float(np.sqrt(np.mean(shown.residual**2)))
         size = size if size > _SILENT else 0.0
         count = len(shown.place)
-        told = max(TOLD[test.kind] * count, 1.0)
-        judged.append(structure(_rows(shown, test.weights), size, known, share * count, told))
+        noise_freedom = max(TOLD[test.kind] * count, 1.0)
+        judged.append(
+            structure(_rows(shown, test.weights), size, known, share * count, noise_freedom)
+        )
     for name, values in rows.items():
         data[name] = ("point", np.array(values))
     data["noise"] = ("test", np.array(problem.sigma))
@@ -191,11 +193,11 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
 
 def _rows(shown: TestPoints, weights: dict[str, float]) -> list[Row]:
     """Residuals of each direction and quantity in the order of their places."""
-    found = []
+    rows = []
     keys = list(zip(shown.direction, shown.variable, strict=True))
     for key in dict.fromkeys(keys):
         here = np.flatnonzero([k == key for k in keys])
         here = here[np.argsort(shown.place[here], kind="stable")]
         residual = shown.residual[here] / weights[key[1]]
-        found.append(Row(key[1], shown.place[here], residual, shown.modelled[here]))
-    return found
+        rows.append(Row(key[1], shown.place[here], residual, shown.modelled[here]))
+    return rows

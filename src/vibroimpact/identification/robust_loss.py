@@ -58,19 +58,19 @@ def noises(problem: Problem, x: Array, said: Sequence[bool]) -> list[float]:
     residuals = plain.values(x).residuals
     used = sum(t.points_count for t in problem.tests)
     spare = max(1.0 - len(x) / used, 0.1)
-    found, begin = [], 0
+    sigmas, begin = [], 0
     for test, known in zip(problem.tests, said, strict=True):
         points = residuals[begin : begin + test.points_count]
         begin += test.count
-        found.append(test.noise if known else max(_noise(points, problem.tail, spare), _LEAST))
-    return found
+        sigmas.append(test.noise if known else max(_noise(points, problem.tail, spare), _LEAST))
+    return sigmas
 
 
 def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
     """The tests, each quantity weighed by its own noise where that is not known beforehand."""
     plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
     residuals = plain.values(x).residuals
-    found, begin = [], 0
+    tests, begin = [], 0
     for test, known in zip(problem.tests, said, strict=True):
         points = residuals[begin : begin + test.points_count]
         begin += test.count
@@ -85,8 +85,8 @@ def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
                 changed.weights = rest | {
                     name: max(size / whole, _RATIO) for name, size in own.items()
                 }
-        found.append(changed)
-    return found
+        tests.append(changed)
+    return tests
 
 
 def _noise(points: Array, tail: float, spare: float) -> float:

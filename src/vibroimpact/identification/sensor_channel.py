@@ -39,13 +39,13 @@ def doubt(values: Array, noise: float) -> Array:
     off by half the jump. A step is a jump if it exceeds both its neighbours by several standard
     deviations.
     """
-    found = np.ones(len(values))
+    factors = np.ones(len(values))
     step = np.abs(np.diff(values))
     over = step[1:-1] - np.maximum(step[:-2], step[2:])
     for i in np.flatnonzero(over > _JUMP * noise):
         beside = slice(i + 1, i + 3)
-        found[beside] = np.maximum(found[beside], math.hypot(1.0, 0.5 * over[i] / noise))
-    return found
+        factors[beside] = np.maximum(factors[beside], math.hypot(1.0, 0.5 * over[i] / noise))
+    return factors
 
 
 def integrated(time: Array, values: Array) -> Array:

@@ -66,14 +66,14 @@ def sensor_doubts(problem: Problem, x: Array, number: int) -> list[str]:
                 values = (end * one.scale)[len(free) : len(free) + len(offsets)]
                 best = left, names, values.tolist()
     left, names, values = best
-    told = [f"the sign of the {name.replace('_', ' ')} reversed" for name in names]
+    fixes = [f"the sign of the {name.replace('_', ' ')} reversed" for name in names]
     for offset, value in zip(offsets, values, strict=True):
         if abs(value) > _CLEAR * test.size[offset.name.removesuffix("_offset")]:
-            told.append(f"{offset.name} {pretty(value, offset.quantity, 3)}")
-    if not told or not left < _BETTER * before:
+            fixes.append(f"{offset.name} {pretty(value, offset.quantity, 3)}")
+    if not fixes or not left < _BETTER * before:
         return []
     return [
-        f"{test.name}: with {' and '.join(told)}, the residuals are {left:.3g} times the noise of "
+        f"{test.name}: with {' and '.join(fixes)}, the residuals are {left:.3g} times the noise of "
         f"the measurement instead of {before:.3g}: check this sensor, and fit again with its "
         f"{'sign changed in the data' if names else 'offset free'}"
     ]

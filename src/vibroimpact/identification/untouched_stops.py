@@ -48,12 +48,12 @@ def _idle(problem: Problem, x: Array, number: int) -> dict[str, float]:
     test = problem.tests[number]
     rig, _ = problem.rig_of(x, test)
     reach = test.reach(rig, problem.of_test(x, number))
-    found = {}
+    gap_shares = {}
     for side, far in zip(("right", "left"), reach, strict=True):
         stop = getattr(rig.oscillator, side)
         if stop is not None and far < stop.gap:
-            found[side] = max(far, 0.0) / stop.gap if stop.gap > 0.0 else 1.0
-    return found
+            gap_shares[side] = max(far, 0.0) / stop.gap if stop.gap > 0.0 else 1.0
+    return gap_shares
 
 
 def _moved(problem: Problem, x: Array, number: int, one: Free, test: Test) -> set[str]:

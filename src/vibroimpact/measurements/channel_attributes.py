@@ -93,9 +93,9 @@ def kind_of(name: str) -> tuple[Kind | None, str]:
     text, key = " ".join(words), "".join(words)
     if text.startswith(_APPLIED_BY_READERS) or key in _STARTS | _ABSENT:
         return None, ""
-    units = [found for word in words if (found := _OF_UNITS.fullmatch(word))]
+    units = [match for word in words if (match := _OF_UNITS.fullmatch(word))]
     if units and not _NO_UNITS & set(words):
-        kept = [found[1] if (found := _OF_UNITS.fullmatch(word)) else word for word in words]
+        kept = [match[1] if (match := _OF_UNITS.fullmatch(word)) else word for word in words]
         about = [word for word in kept if word and word not in _BESIDE_UNITS]
         spoken = " ".join(word for word in kept if word)
         timed = " ".join(about) in _OF_TIMES or spoken in _OF_TIMES
@@ -106,9 +106,9 @@ def kind_of(name: str) -> tuple[Kind | None, str]:
         return "offset", ""
     if _NO_SCALES & set(words):
         return None, ""
-    if found := _OF_SCALES.search(text):
-        own = found[0].replace(" ", "")
-        rest = "".join((text[: found.start()] + text[found.end() :]).split())
+    if match := _OF_SCALES.search(text):
+        own = match[0].replace(" ", "")
+        rest = "".join((text[: match.start()] + text[match.end() :]).split())
         return ("scale" if own in _SCALES else "offset" if own in _OFFSETS else "unclear"), rest
     if words and words[-1] in _ONLY_OFFSET:
         return "unclear", "".join(words[:-1])
@@ -128,43 +128,43 @@ def stated(attributes: Mapping[str, Any]) -> Stated:
     InputError
         If the step cannot be read.
     """
-    found: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     others: dict[str, str] = {}
     steps: dict[str, str] = {}
     time_unit: tuple[str, str] | None = None
     doubts = []
-    for name, given in attributes.items():
-        value = single(given)
+    for name, raw in attributes.items():
+        value = single(raw)
         kind, _ = kind_of(name)
         key = "".join(words_in(name))
         if kind == "time_unit":
             if known(value):
                 time_unit = name, str(value)
         elif kind is not None:
-            read, doubt = one(kind, value, given)
+            read, doubt = one(kind, value, raw)
             field = str(kind)
-            seen = shown(np.ravel(np.asarray(given)).tolist() if value is None else value)
+            seen = shown(np.ravel(np.asarray(raw)).tolist() if value is None else value)
             if doubt:
                 doubts.append(f"{name} = {seen}, which {doubt}")
-            elif read is not None and not _agree(found.setdefault(field, read), read):
-                doubts.append(f"{name} = {seen} in addition to the {field} {found[field]!r}")
+            elif read is not None and not _agree(fields.setdefault(field, read), read):
+                doubts.append(f"{name} = {seen} in addition to the {field} {fields[field]!r}")
         elif key in _ABSENT:
-            numbers = [number(one) for one in np.ravel(np.asarray(given))]
-            found["absent"] = (*found.get("absent", ()), *(n for n in numbers if n is not None))
+            numbers = [number(one) for one in np.ravel(np.asarray(raw))]
+            fields["absent"] = (*fields.get("absent", ()), *(n for n in numbers if n is not None))
         elif key in _STARTS and number(value) is not None:
-            found["start"] = number(value)
+            fields["start"] = number(value)
         elif is_sampling(name) and value is not None:
             steps[name] = str(value)
         elif value is not None:
             others[name] = str(value)
     if steps:
         unit = spelled(time_unit[1]) if time_unit else None
-        found["step"] = one_step(steps, unit)
-        if unit and "start" in found:
-            found["start"] *= step_of("dt", f"1 {unit}")
+        fields["step"] = one_step(steps, unit)
+        if unit and "start" in fields:
+            fields["start"] *= step_of("dt", f"1 {unit}")
     elif time_unit:
         others[time_unit[0]] = time_unit[1]
-    return Stated(**found, doubt="; ".join(doubts), others=others)
+    return Stated(**fields, doubt="; ".join(doubts), others=others)
 
 
 def _agree(first: str | float, other: str | float) -> bool:
@@ -173,10 +173,10 @@ def _agree(first: str | float, other: str | float) -> bool:
     return first == other
 
 
-def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
+def one(kind: Kind, value: Any, raw: Any) -> tuple[str | float | None, str]:
     """Return the unit, scale or offset in an attribute, or the reason why it is not one."""
     if kind in ("unit", "time_unit"):
-        text = "" if value is None and np.size(given) == 0 else value
+        text = "" if value is None and np.size(raw) == 0 else value
         if not isinstance(text, str):
             return None, "is not a unit; use a string such as 'm/s^2'"
         return known(text), ""

@@ -51,21 +51,21 @@ def known_columns(
                 f"units: {key!r} is neither a variable nor a column of {table.path!r}; use one of "
                 f"its columns: {', '.join(names)}"
             )
-    found: dict[int, Meaning] = {}
+    meanings: dict[int, Meaning] = {}
     left: list[str] = []
     repeated: list[str] = []
     for i, column in enumerate(table.columns):
         said = chosen.get(i) or meaning(column.name, column.unit)
         if said is None:
             left.append(column.name)
-        elif i not in chosen and _is_repeated(said, chosen, found):
+        elif i not in chosen and _is_repeated(said, chosen, meanings):
             repeated.append(column.name)
         elif said.variable != "direction" and column.values.dtype.kind not in "fiub":
             kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
             left.append(f"{column.name}{kind}")
         else:
-            found[i] = said
-    return found, left, repeated
+            meanings[i] = said
+    return meanings, left, repeated
 
 
 def converted(
@@ -82,14 +82,14 @@ def converted(
     InputError
         If a unit is not stated or not clear, or if a value is not finite.
     """
-    found: dict[int, tuple[Meaning, Array]] = {}
+    si_columns: dict[int, tuple[Meaning, Array]] = {}
     missing: dict[str, str] = {}
     for i, said in meanings.items():
         column = table.columns[i]
         if said.variable not in used:
             continue
         if said.variable == "direction":
-            found[i] = (said, np.empty(0))
+            si_columns[i] = (said, np.empty(0))
             continue
         unit = units.get(said.variable) or units.get(column.name)
         if column.doubt and unit is None:
@@ -101,16 +101,16 @@ def converted(
         if usual := missing_unit(column, said, unit):
             missing[column.name] = usual
             continue
-        values, told = in_si(column, said, unit, table.path)
+        values, note = in_si(column, said, unit, table.path)
         for row in np.flatnonzero(np.isinf(values))[:1]:
             raise InputError(
                 f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
                 f"{values[row]} is not finite; correct it, or leave the cell empty if the value is "
                 "missing"
             )
-        if told:
-            notes.append(told)
-        found[i] = (said, values)
+        if note:
+            notes.append(note)
+        si_columns[i] = (said, values)
     if missing:
         pairs = ", ".join(f"{name!r}: {unit!r}" for name, unit in missing.items())
         typed = " ".join(f"--units {name!r} {unit}" for name, unit in missing.items())
@@ -118,15 +118,15 @@ def converted(
             f"measurement: {table.path!r} states no unit of {', '.join(map(repr, missing))}; pass "
             f"it, such as units={{{pairs}}} ({typed})"
         )
-    return found
+    return si_columns
 
 
 def missing_columns(table: Columns, known: Mapping[int, Meaning], left: list[str]) -> str:
     """Describe how each column is read, what is missing, and how the user can specify it."""
     names = [column.name for column in table.columns]
-    read = {names[i]: found.variable for i, found in known.items()}
+    read = {names[i]: reading.variable for i, reading in known.items()}
     variables = set(read.values())
-    moving = [name for name, found in read.items() if found in HISTORIES]
+    moving = [name for name, reading in read.items() if reading in HISTORIES]
     if variables & set(CURVES):
         missing, wanted, listed = "the frequency is", ["frequency"], []
     elif "frequency" in variables:
@@ -145,14 +145,14 @@ def missing_columns(table: Columns, known: Mapping[int, Meaning], left: list[str
     if len(wanted) == 1 and fitting:
         wanted, first = [fitting[0][0]], [fitting[0][1]]
     spare = [*first, *left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
-    told = [f"{name!r} is read as {found}" for name, found in read.items()]
-    told += [f"{name!r} is not understood" for name in left]
+    phrases = [f"{name!r} is read as {reading}" for name, reading in read.items()]
+    phrases += [f"{name!r} is not understood" for name in left]
     pairs = list(zip(wanted, spare, strict=False))
     said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
     typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
     accepted = f"; accepted quantities: {', '.join(listed)}" if listed else ""
     return (
-        f": {', '.join(told)}; {missing} missing, so name the column"
+        f": {', '.join(phrases)}; {missing} missing, so name the column"
         f"{'s' if len(pairs) > 1 else ''} as in columns={{{said}}} ({typed}){accepted}"
     )
 
@@ -163,8 +163,8 @@ def _of_unit(unit: str | None, variables: list[str]) -> list[str]:
 
 
 def _is_repeated(
-    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, Meaning]
+    said: Meaning, chosen: Mapping[int, Meaning], meanings: Mapping[int, Meaning]
 ) -> bool:
     """Return whether another column holds the same quantity."""
-    others = [*chosen.values(), *found.values()]
+    others = [*chosen.values(), *meanings.values()]
     return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

@@ -46,7 +46,7 @@ def curves(
     InputError
         If the direction of a row is unknown, or if no values are left.
     """
-    at = next(values for found, values in known.values() if found.variable == "frequency")
+    at = next(values for meaning, values in known.values() if meaning.variable == "frequency")
     ways = _directions(table, known, at, direction, notes)
     usable = np.isfinite(at) & (at > 0.0)
     if not usable.all():
@@ -54,14 +54,14 @@ def curves(
         notes.append(f"rows without a frequency were left out: {int((~usable).sum())} ({rows})")
     points: dict[tuple[str, str, float], list[float]] = {}
     empty = 0
-    for found, values in known.values():
-        if found.variable not in CURVES:
+    for meaning, values in known.values():
+        if meaning.variable not in CURVES:
             continue
         for i in np.flatnonzero(usable):
             if not np.isfinite(values[i]):
                 empty += 1
                 continue
-            key = (found.variable, found.direction or ways[int(i)], float(at[i]))
+            key = (meaning.variable, meaning.direction or ways[int(i)], float(at[i]))
             points.setdefault(key, []).append(float(values[i]))
     if not points:
         raise InputError(
@@ -97,13 +97,13 @@ def _directions(
     table: Columns, known: Known, at: Array, direction: str | None, notes: list[str]
 ) -> Sequence[Direction]:
     """Return the direction of each row. It is used if the name of a column does not state it."""
-    column = next((i for i, (found, _) in known.items() if found.variable == "direction"), None)
+    column = next((i for i, (meaning, _) in known.items() if meaning.variable == "direction"), None)
     if direction is not None:
         return [direction_of(direction, table.path, "direction")] * len(at)
     if column is not None:
         words: NDArray[np.generic] = table.columns[column].values
         return [direction_of(word, table.path, table.row(i)) for i, word in enumerate(words)]
-    if all(found.direction for found, _ in known.values() if found.variable in CURVES):
+    if all(meaning.direction for meaning, _ in known.values() if meaning.variable in CURVES):
         return ["forward"] * len(at)  # asked of none
     f = at[np.isfinite(at)]
     change = np.diff(f)

@@ -86,7 +86,7 @@ def noise_of(data: xr.Dataset | Swept) -> float:
 
 def _of_neighbours(both: Swept) -> float:
     """Estimate the noise from differences between directions or frequencies; 0 if there are few."""
-    found: list[float] = []
+    changes: list[float] = []
     for name in CURVES:
         values = getattr(both, name)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -97,9 +97,9 @@ def _of_neighbours(both: Swept) -> float:
             # Third differences leave little of a smooth curve, and √20 times the noise.
             change = np.diff(logs[0][np.isfinite(logs[0])], 3) / np.sqrt(20.0)
         change = np.abs(change[np.isfinite(change)])
-        found += change.tolist()
+        changes += change.tolist()
     # The directions differ by more than noise in a hysteresis, hence the lower values alone.
-    return float(np.quantile(found, _LOW)) / _OF_NORMAL if len(found) >= _ENOUGH else 0.0
+    return float(np.quantile(changes, _LOW)) / _OF_NORMAL if len(changes) >= _ENOUGH else 0.0
 
 
 def _of_repeats(data: xr.Dataset) -> float:
@@ -151,16 +151,16 @@ def measured_features(data: xr.Dataset) -> Features:
 def in_words(data: xr.Dataset) -> list[str]:
     """Describe the features of measured curves, with one line per feature."""
     both = swept(data)
-    found = measured_features(data)
+    features = measured_features(data)
     step = np.diff(both.frequency)
     lines = []
     if len(step):
-        told = (
+        widths = (
             f"{step.min():.4g}" if np.ptp(step) < 1e-6 else f"{step.min():.4g} to {step.max():.4g}"
         )
         lines.append(
             f"{len(both.frequency)} frequencies, {both.frequency[0]:.4g} to "
-            f"{both.frequency[-1]:.4g} Hz, in steps of {told} Hz: features between two steps are "
+            f"{both.frequency[-1]:.4g} Hz, in steps of {widths} Hz: features between two steps are "
             "not detected"
         )
     lines.append(f"noise: {100.0 * noise_of(data):.2g} % of a value")
@@ -168,7 +168,7 @@ def in_words(data: xr.Dataset) -> list[str]:
     lines += [
         f"{peak.direction}: peak of {_WORDS[name]} at "
         f"{peak.frequency:.4g} Hz{' (the end of the curve)' if peak.at_end else ''}"
-        for peak in found.peaks
+        for peak in features.peaks
         if peak.primary and (name := names[peak.curve]) is not None
     ]
     lines += [
@@ -177,12 +177,12 @@ def in_words(data: xr.Dataset) -> list[str]:
         for end, side in (("max", "maxima"), ("min", "minima"))
         if f"{kind}_{end}" in names.values()
     ]
-    for jump in found.jumps:
+    for jump in features.jumps:
         way = "up" if jump.upward else "down"
         low, high = sorted((jump.before, jump.after))
         lines.append(f"{jump.direction}: jump {way} between {low:.4g} and {high:.4g} Hz")
     lines += [
         f"hysteresis, {item.order}: {item.low:.4g} to {item.high:.4g} Hz"
-        for item in found.hysteresis
+        for item in features.hysteresis
     ]
     return lines

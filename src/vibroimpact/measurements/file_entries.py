@@ -15,14 +15,14 @@ from vibroimpact.tables.units import ended, spelled
 _SHAKEN = {"amplitude": ACCELERATION, "frequency": FREQUENCY}
 
 
-def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> dict[str, float]:
+def shaking(table: Columns, arguments: Mapping[str, object], notes: list[str]) -> dict[str, float]:
     """Return the amplitude and the frequency of the base in SI units, from the call or the file.
 
     Parameters
     ----------
     table
         The table that was read from the file.
-    given
+    arguments
         Values in the call, which take precedence. None if the call has no value.
     notes
         List to which notes on assumptions and on numbers that were left out are added.
@@ -41,9 +41,9 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
             written.setdefault(bare, with_unit(text, unit))
         elif _odd(key, text):
             left.append(f"{key} = {text}")
-    found = {}
+    values = {}
     for name, quantity in _SHAKEN.items():
-        value, said = given.get(name), written.get(name, "")
+        value, said = arguments.get(name), written.get(name, "")
         if value is None and not said:
             continue
         is_bare = value is None and BARE.fullmatch(said.strip()) is not None
@@ -52,14 +52,14 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
                 f"measurement: {table.path!r}: {name} = {said} has no unit; pass {name}= "
                 f"(--{name}) with a unit, such as '0.05 g', or write the unit in the file"
             )
-        found[name] = to_si(said if value is None else value, quantity, name, above=0.0)
+        values[name] = to_si(said if value is None else value, quantity, name, above=0.0)
         if is_bare:
-            notes.append(f"{name} has no unit, so {found[name]:.6g} {quantity.symbol} was assumed")
+            notes.append(f"{name} has no unit, so {values[name]:.6g} {quantity.symbol} was assumed")
     if left:
         notes.append(
             f"entries outside the columns were not understood and were left out: {', '.join(left)}"
         )
-    return found
+    return values
 
 
 def with_unit(text: str, unit: str | None) -> str:

@@ -57,17 +57,17 @@ def read(path: Path) -> list[Columns]:
                 about[f"{name}/{field}"] = Stated(known(unit))
             said[name] = {key: _joined(value) for key, value in own.items()}
             return
-        found = stated(own)
+        statement = stated(own)
         if each:
             parts = np.moveaxis(values, int(np.argmax(values.shape)), 0)
             for i, unit in enumerate(each):
                 groups.setdefault(group, {})[f"{last} {i + 1}"] = parts[:, i]
                 field = f"{group}/{last} {i + 1}".removeprefix("/")
-                about[field] = found._replace(unit=known(unit))
+                about[field] = statement._replace(unit=known(unit))
             return
         groups.setdefault(group, {})[last] = values
-        about[name] = found
-        said[group] = dict(found.others) | said.get(group, {})
+        about[name] = statement
+        said[group] = dict(statement.others) | said.get(group, {})
 
     try:
         _check_heaps(path.read_bytes())

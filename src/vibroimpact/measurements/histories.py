@@ -36,16 +36,16 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
     InputError
         If no channel is left, or if two samples have the same time.
     """
-    time = next(values for found, values in known.values() if found.variable == "time")
+    time = next(values for meaning, values in known.values() if meaning.variable == "time")
     usable = np.isfinite(time)
     channels = {
-        found.variable: values
-        for found, values in known.values()
-        if found.variable in HISTORIES and np.isfinite(values[usable]).any()
+        meaning.variable: values
+        for meaning, values in known.values()
+        if meaning.variable in HISTORIES and np.isfinite(values[usable]).any()
     }
     if not channels:
         named = [
-            table.columns[i].name for i, (found, _) in known.items() if found.variable != "time"
+            table.columns[i].name for i, (meaning, _) in known.items() if meaning.variable != "time"
         ]
         raise InputError(
             f"measurement: {table.path!r}: no row has both a time and a value of "

@@ -21,9 +21,9 @@ def read(file: File) -> list[Columns] | None:
     """
     if not recognises(file):
         return None
-    found = segments(file)
+    file_segments = segments(file)
     tables: list[tuple[str, list[Column]]] = []
-    for number, signals in enumerate(found, 1):
+    for number, signals in enumerate(file_segments, 1):
         begun = len(tables)
         for signal in signals:
             bare, own = parted(signal.name)

@@ -42,8 +42,8 @@ def read(path: Path) -> list[Columns]:
     about: dict[str, Stated] = {}
     try:
         _checked(path)
-        found = scipy.io.loadmat(str(path), simplify_cells=True)
-        _gather(path, found, "", groups, about)
+        contents = scipy.io.loadmat(str(path), simplify_cells=True)
+        _gather(path, contents, "", groups, about)
     except NotImplementedError:
         return hdf5.read(path)
     except InputError:
@@ -130,12 +130,12 @@ def _check_array(
 
 def _gather(
     path: Path,
-    found: Mapping[str, Any],
+    contents: Mapping[str, Any],
     name: str,
     groups: dict[str, dict[str, Any]],
     about: dict[str, Stated],
 ) -> None:
-    for key, value in found.items():
+    for key, value in contents.items():
         if key.startswith("__"):
             continue
         many = isinstance(value, list | np.ndarray) and _records(value)

@@ -195,10 +195,10 @@ def _axis_apart(word: str, count: int) -> list[str]:
     """
     if joined := _COMPOUND.fullmatch(word):
         return [part for part in joined.groups() if part]
-    found = _GLUED.fullmatch(word) or (
+    match = _GLUED.fullmatch(word) or (
         re.fullmatch("([uadv])([xyz])", word) if count == 1 else None
     )
-    return [found[1], found[2]] if found else [word]
+    return [match[1], match[2]] if match else [word]
 
 
 def _of_letters(words: list[str], unit: str | None) -> str | None:
@@ -217,7 +217,9 @@ def _of_letters(words: list[str], unit: str | None) -> str | None:
     return _LETTERS.get(letters[0])
 
 
-def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[Array, str | None]:
+def in_si(
+    column: Column, column_meaning: Meaning, said: str | None, path: str
+) -> tuple[Array, str | None]:
     """Return the values of a column in SI units, and what is noted of its unit.
 
     Times without a unit are in s, and frequencies in Hz, which is noted.
@@ -227,16 +229,23 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     InputError
         If the unit cannot be read, or if it belongs to another quantity.
     """
-    quantity = QUANTITIES[found.variable]
-    unit = said or column.unit or found.unit
+    quantity = QUANTITIES[column_meaning.variable]
+    unit = said or column.unit or column_meaning.unit
     if unit is not None and unit.strip().upper() == "SI":
         unit = quantity.symbol or "1"
-    values = np.asarray(column.values, dtype=float) * found.factor
+    values = np.asarray(column.values, dtype=float) * column_meaning.factor
     notes = []
-    if found.factor != 1.0:
+    if column_meaning.factor != 1.0:
         notes.append(f"{column.name!r} was read as an amplitude, which is half an excursion")
-    if unit == column.unit and unit and found.unit and not alike(unit, found.unit):
-        notes.append(f"{column.name!r} was read in {unit}, although its name states {found.unit}")
+    if (
+        unit == column.unit
+        and unit
+        and column_meaning.unit
+        and not alike(unit, column_meaning.unit)
+    ):
+        notes.append(
+            f"{column.name!r} was read in {unit}, although its name states {column_meaning.unit}"
+        )
     if unit is not None and unit.strip() not in _NO_UNIT:
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
@@ -256,13 +265,13 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     return values, "; ".join(notes) or None
 
 
-def missing_unit(column: Column, found: Meaning, said: str | None) -> str | None:
+def missing_unit(column: Column, column_meaning: Meaning, said: str | None) -> str | None:
     """Return a usual unit of a column if its unit is needed and not stated, or None.
 
     Times are in s, frequencies in Hz and ratios have no unit, if none is stated.
     """
-    quantity = QUANTITIES[found.variable]
-    unit = said or column.unit or found.unit
+    quantity = QUANTITIES[column_meaning.variable]
+    unit = said or column.unit or column_meaning.unit
     return None if unit and unit.strip() not in _NO_UNIT else _EXAMPLES.get(quantity)
 
 

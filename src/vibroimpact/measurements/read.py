@@ -131,7 +131,7 @@ def read_measurement(
         column = table.columns[i]
         if column.values.dtype.kind in "fiu":
             notes += doubt_marks(column.name, column.values.astype(float))
-    variables = {found.variable for found in meanings.values()}
+    variables = {column_meaning.variable for column_meaning in meanings.values()}
     if "frequency" in variables and variables & set(CURVES):
         known = converted(table, meanings, {"frequency", "direction", *CURVES}, units, notes)
         data, kind = curves(table, known, direction, notes, facts), "curves"
@@ -168,8 +168,8 @@ def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
     if reader is not None:
         return reader(file)
     opened = File(file, decimal, "measurement")
-    found = lvm.read(opened)
-    return text.read(opened) if found is None else found
+    tables = lvm.read(opened)
+    return text.read(opened) if tables is None else tables
 
 
 def _clean(name: str) -> str:
@@ -199,8 +199,8 @@ def _filled(table: Columns, wanted: set[str]) -> Columns:
     kept = tuple(one for one in table.columns if not any(one is other for other in empty))
     if not empty or not any(map(is_channel, kept)):
         return table
-    told = f"columns without values were left out: {', '.join(column.name for column in empty)}"
-    return table._replace(columns=kept, notes=(*table.notes, told))
+    note = f"columns without values were left out: {', '.join(column.name for column in empty)}"
+    return table._replace(columns=kept, notes=(*table.notes, note))
 
 
 def is_measured(data: object) -> bool:
@@ -282,9 +282,9 @@ def _chosen(
         return tables[usable[0]]
     if isinstance(group, str) and group in names:
         return tables[names.index(group)]
-    given = f"{shown(group)} is none of them" if group is not None else "none is chosen"
+    choice = f"{shown(group)} is none of them" if group is not None else "none is chosen"
     raise InputError(
-        f"group: {path!r} holds {len(tables)} tests, and {given}; pass one of "
+        f"group: {path!r} holds {len(tables)} tests, and {choice}; pass one of "
         f"{', '.join(map(repr, names))}"
     )
 

@@ -27,8 +27,8 @@ def timed(table: Columns) -> list[Columns]:
     axes = {said.variable for c in table.columns if (said := meaning(c.name))}
     if not table.columns or axes & {"time", "frequency"}:
         return [table._replace(columns=of_one_length(table.path, list(table.columns)))]
-    given = _stated(table.said)
-    common = given[1] if given else None
+    entry = _stated(table.said)
+    common = entry[1] if entry else None
     groups: dict[tuple[float | None, float], list[Column]] = {}
     for column in table.columns:
         words = column.values.dtype.kind == "U"
@@ -42,16 +42,16 @@ def timed(table: Columns) -> list[Columns]:
             time = Column("time", "s", start + step * np.arange(count))
             part = part._replace(columns=(time, *part.columns))
             own = any(column.step is not None for column in columns)
-            if given and not own:
-                told = (
-                    f"the times were computed from {given[0]} = {table.said[given[0]]}, and start "
+            if entry and not own:
+                note = (
+                    f"the times were computed from {entry[0]} = {table.said[entry[0]]}, and start "
                     "at 0 s"
                 )
             else:
-                told = (
+                note = (
                     f"the times were computed from the step of {step:g} s, and start at {start:g} s"
                 )
-            part = part._replace(notes=(*part.notes, told))
+            part = part._replace(notes=(*part.notes, note))
         if len(groups) > 1:
             name = table.said.get("group", "")
             how = f"{step:g} s from {start:g} s on" if step is not None else "without times"
@@ -86,11 +86,11 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
     InputError
         If a value cannot be read or is not greater than 0, or if two values differ.
     """
-    found: dict[str, float] = {}
+    steps: dict[str, float] = {}
     for name, text in said.items():
         bare = isinstance(_number(text), float) and not is_rate(name)
-        found[name] = step_of(name, f"{text} {unit}" if bare and unit else text)
-    (first, step), *others = found.items()
+        steps[name] = step_of(name, f"{text} {unit}" if bare and unit else text)
+    (first, step), *others = steps.items()
     for name, other in others:
         if not same(other, step):
             raise InputError(

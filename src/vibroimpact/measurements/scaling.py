@@ -74,7 +74,7 @@ def _listed(columns: list[Column]) -> list[Column]:
 
     A list with the length of the channels, such as a gain over frequency, is a channel.
     """
-    found = columns
+    with_doubts = columns
     longest = max((len(column.values) for column in columns), default=0)
     for column in columns:
         kind, _ = kind_of(column.name)
@@ -84,13 +84,13 @@ def _listed(columns: list[Column]) -> list[Column]:
             continue
         some = ", ".join(str(value) for value in column.values[:4])
         doubt = f"{column.name} = {shown(some)}, which does not state the channel of each value"
-        found = [
+        with_doubts = [
             doubtful(other, doubt)
             if other.name != column.name and (other.unit is None if units else is_channel(other))
             else other
-            for other in found
+            for other in with_doubts
         ]
-    return found
+    return with_doubts
 
 
 def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
@@ -166,8 +166,8 @@ def _plain(name: str) -> str:
 
 
 def _quantity(column: Column) -> object:
-    found = meaning(column.name)
-    return QUANTITIES.get(found.variable) if found else None
+    column_meaning = meaning(column.name)
+    return QUANTITIES.get(column_meaning.variable) if column_meaning else None
 
 
 def _is_time(column: Column) -> bool:
@@ -176,6 +176,6 @@ def _is_time(column: Column) -> bool:
 
 def is_channel(column: Column) -> bool:
     """Return whether a column holds numbers other than a time, a frequency or a direction."""
-    found = meaning(column.name)
-    other = found is not None and found.variable in (*AXES, "direction")
+    column_meaning = meaning(column.name)
+    other = column_meaning is not None and column_meaning.variable in (*AXES, "direction")
     return column.values.dtype.kind in _NUMBERS and not other

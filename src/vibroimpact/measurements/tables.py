@@ -26,31 +26,35 @@ def tables(
     said: Mapping[str, Mapping[str, str]] | None = None,
 ) -> list[Columns]:
     """Return a table for each group, or one table if each group has only one channel."""
-    found: list[Columns] = []
+    group_tables: list[Columns] = []
     about, said = about or {}, said or {}
     common = {**said.get("", {}), **columns(path, groups.get("", {}), {}, {}).said}
     for at, group in groups.items():
         names = {key: f"{at}/{key}" if at else key for key in group}
         own = {key: about[name] for key, name in names.items() if name in about}
         beside = {**common, **said.get(at, {})}
-        found.append(columns(path, group, own, {**beside, "group": at} if at else beside))
-    found = [table for table in found if table.columns]
-    lengths = {len(column.values) for table in found for column in table.columns}
-    if len(found) > 1 and len(lengths) == 1 and all(len(table.columns) == 1 for table in found):
-        found = [_together(path, found)]
-    return found or [columns(path, {}, {}, {})]
+        group_tables.append(columns(path, group, own, {**beside, "group": at} if at else beside))
+    group_tables = [table for table in group_tables if table.columns]
+    lengths = {len(column.values) for table in group_tables for column in table.columns}
+    if (
+        len(group_tables) > 1
+        and len(lengths) == 1
+        and all(len(table.columns) == 1 for table in group_tables)
+    ):
+        group_tables = [_together(path, group_tables)]
+    return group_tables or [columns(path, {}, {}, {})]
 
 
 def _together(path: Path, tables: list[Columns]) -> Columns:
     """Join groups with one channel to one table. Each channel gets the name of its group."""
-    found: list[Column] = []
+    channels: list[Column] = []
     beside: dict[str, str] = {}
     for table in tables:
         (column,) = table.columns
         said = dict(table.said)
-        found.append(column._replace(name=said.pop("group", column.name)))
+        channels.append(column._replace(name=said.pop("group", column.name)))
         beside |= said
-    return Columns(str(path), tuple(found), beside)
+    return Columns(str(path), tuple(channels), beside)
 
 
 def columns(
@@ -77,7 +81,7 @@ def columns(
     InputError
         If a matrix has too many columns.
     """
-    beside = dict(told(name, value) for name, value in said.items())
+    beside = dict(key_and_text(name, value) for name, value in said.items())
     vectors: dict[str, NDArray[Any]] = {}
     for name, value in group.items():
         values = np.asarray(value)
@@ -90,10 +94,10 @@ def columns(
             values = np.char.decode(values, "latin-1")
         if values.ndim == 0 or values.dtype.kind not in "fiubUc":
             unit = about.get(name, Stated()).unit
-            beside |= [told(name, with_unit(as_text(values[()]), unit))]
+            beside |= [key_and_text(name, with_unit(as_text(values[()]), unit))]
         else:
             vectors[name] = about.get(name, Stated()).holes(values)
-    found: list[Column] = []
+    all_columns: list[Column] = []
     used: set[str] = set()
     for name, values in vectors.items():
         if values.ndim == 1 or values.dtype.kind in "Uc":
@@ -108,14 +112,14 @@ def columns(
         own = about.get(name, Stated())
         for one, unit, column in zip(names, each, table.T, strict=True):
             bare, stated = parted(one)
-            found.append(described(bare, column, own, stated, known(unit)))
+            all_columns.append(described(bare, column, own, stated, known(unit)))
     for name, values in vectors.items():
         if (values.ndim == 1 or values.dtype.kind == "c") and name not in used:
             bare, unit = parted(name)
             own = about.get(name, Stated())
             values = values.ravel() if values.dtype.kind in "Uc" else values.astype(float)
-            found.append(described(bare, values, own, unit))
-    return completed(Columns(str(path), tuple(found), beside))
+            all_columns.append(described(bare, values, own, unit))
+    return completed(Columns(str(path), tuple(all_columns), beside))
 
 
 def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) -> Column:
@@ -125,7 +129,7 @@ def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) 
     return doubtful(column, doubt)
 
 
-def told(name: str, text: str) -> tuple[str, str]:
+def key_and_text(name: str, text: str) -> tuple[str, str]:
     """Return an entry next to the columns, with the unit at the end of its name."""
     bare, unit = parted(name)
     return bare, with_unit(text, unit)
@@ -140,8 +144,8 @@ def _words(
         for name, values in vectors.items()
         if values.ndim == 1 and values.dtype.kind == "U" and len(values) == count
     }
-    told = {name: words for name, words in lists.items() if kind_of(name)[0] == "unit"}
-    return {name: words for name, words in lists.items() if name not in told}, told
+    unit_lists = {name: words for name, words in lists.items() if kind_of(name)[0] == "unit"}
+    return {name: words for name, words in lists.items() if name not in unit_lists}, unit_lists
 
 
 def library(name: str, path: Path) -> Any:

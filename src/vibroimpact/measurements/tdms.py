@@ -14,7 +14,7 @@ import numpy as np
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.channel_attributes import kind_of, stated
 from vibroimpact.measurements.columns import Column, Columns
-from vibroimpact.measurements.tables import damaged, described, library, told
+from vibroimpact.measurements.tables import damaged, described, key_and_text, library
 from vibroimpact.tables.limits import within
 from vibroimpact.tables.units import parted
 
@@ -37,13 +37,15 @@ def read(path: Path) -> list[Columns]:
         with _strict(nptdms), nptdms.TdmsFile.open(str(path)) as file:
             size = sum(8 * len(channel) for group in file.groups() for channel in group.channels())
             within(size, path, "measurement")
-            said = dict(told(str(key), str(value)) for key, value in file.properties.items())
-            found = [_table(path, group, said) for group in file.groups()]
+            said = dict(
+                key_and_text(str(key), str(value)) for key, value in file.properties.items()
+            )
+            tables = [_table(path, group, said) for group in file.groups()]
     except InputError:
         raise
     except Exception as error:  # npTDMS raises whatever it meets in a damaged file
         raise damaged(path, "TDMS", error) from None
-    return [table for table in found if table.columns]
+    return [table for table in tables if table.columns]
 
 
 @contextmanager
@@ -98,7 +100,7 @@ def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
     begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
     first = min((np.datetime64(at) for at in begun), default=None)
     columns: list[Column] = []
-    beside = dict(told(str(key), str(value)) for key, value in group.properties.items())
+    beside = dict(key_and_text(str(key), str(value)) for key, value in group.properties.items())
     for channel in channels:
         bare, unit = parted(channel.name)
         about = stated(channel.properties)

@@ -60,8 +60,8 @@ def read(file: File) -> list[Columns]:
         unit, doubt = agreed(own, below, column.units.other)
         columns.append(Column(bare, unit, column.values, doubt=doubt))
     columns, said = _in_stated_unit(table, columns, said)
-    found = Columns(file.path, tuple(columns), said, table.lines + 1, table.notes)
-    return [_sampled(table, found)]
+    channels = Columns(file.path, tuple(columns), said, table.lines + 1, table.notes)
+    return [_sampled(table, channels)]
 
 
 def _variable(name: str) -> str | None:
@@ -108,10 +108,10 @@ def _said(line: Heading, decimal: str) -> tuple[str, str] | None:
 
 def _pointed(text: str, decimal: str) -> str:
     """Return a number with a decimal point. With comma-separated columns, 1,000 is kept."""
-    found = _COMMA.match(text)
-    if not found or (decimal == "." and re.fullmatch(r"[+-]?[1-9]\d*,\d{3}", found[0])):
+    match = _COMMA.match(text)
+    if not match or (decimal == "." and re.fullmatch(r"[+-]?[1-9]\d*,\d{3}", match[0])):
         return text
-    return found[0].replace(",", ".") + text[found.end() :]
+    return match[0].replace(",", ".") + text[match.end() :]
 
 
 def _in_stated_unit(
@@ -128,13 +128,13 @@ def _in_stated_unit(
     ]  # fmt: skip
     if not stated:
         return columns, said
-    found = [
+    with_units = [
         _in_unit(one, stated) if one.unit is None else _compared(one, table.statements.units)
         for one in columns
     ]
-    if not any(one is not each for one, each in zip(found, columns, strict=True)):
+    if not any(one is not each for one, each in zip(with_units, columns, strict=True)):
         return columns, said
-    return found, {key: text for key, text in said.items() if key not in used}
+    return with_units, {key: text for key, text in said.items() if key not in used}
 
 
 def _in_unit(column: Column, stated: list[str]) -> Column:
@@ -165,26 +165,26 @@ def _may_accelerate(column: Column, unit: str) -> bool:
     return is_free and column.values.dtype.kind == "f" and quantity is ACCELERATION
 
 
-def _sampled(table: Table, found: Columns) -> Columns:
+def _sampled(table: Table, channels: Columns) -> Columns:
     """Check the stated count and step of a time history, and use the step if there are no times."""
-    axes = {known.variable: i for i, c in enumerate(found.columns) if (known := meaning(c.name))}
+    axes = {known.variable: i for i, c in enumerate(channels.columns) if (known := meaning(c.name))}
     stated = table.statements
     if "frequency" in axes or ("time" not in axes and stated.step is None):
-        return found
+        return channels
     at = axes.get("time")
-    unit = None if at is None else found.columns[at].unit or unit_of(table.columns[at].name)
+    unit = None if at is None else channels.columns[at].unit or unit_of(table.columns[at].name)
     if unit is not None and unit not in IN_A_SECOND:
-        return found
+        return channels
     if at is not None and not table.columns[at].is_numeric:
-        return found
+        return channels
     rows = len(table.lines)
-    check_count(table.file, stated, (rows, rows * (len(found.columns) - (at is not None))))
-    if at is not None and not np.isfinite(found.columns[at].values).all():
-        return found
+    check_count(table.file, stated, (rows, rows * (len(channels.columns) - (at is not None))))
+    if at is not None and not np.isfinite(channels.columns[at].values).all():
+        return channels
     if at is not None and rows < 2:
-        return found
+        return channels
     if at is not None and at == table.stamps and stated.step is None:
-        again = np.flatnonzero(np.diff(found.columns[at].values) == 0.0)
+        again = np.flatnonzero(np.diff(channels.columns[at].values) == 0.0)
         if len(again):
             raise table.refused(
                 int(again[0]) + 1,
@@ -193,13 +193,13 @@ def _sampled(table: Table, found: Columns) -> Columns:
             )
     step = sampling(table._replace(time=at), unit)
     if step.contradiction:
-        raise InputError(f"measurement: {found.path!r}, {step.contradiction}")
+        raise InputError(f"measurement: {channels.path!r}, {step.contradiction}")
     if at is None and step.step is not None:
-        columns = tuple(one._replace(step=step.step) for one in found.columns)
-        return found._replace(columns=columns)
+        columns = tuple(one._replace(step=step.step) for one in channels.columns)
+        return channels._replace(columns=columns)
     if at is not None and step.step is not None and "stated step" in step.note:
-        times = found.columns[at].values[0] / IN_A_SECOND[unit or "s"]
+        times = channels.columns[at].values[0] / IN_A_SECOND[unit or "s"]
         even = Column("time", "s", times + step.step * np.arange(rows))
-        columns = tuple(even if i == at else one for i, one in enumerate(found.columns))
-        return found._replace(columns=columns, notes=(*found.notes, step.note))
-    return found
+        columns = tuple(even if i == at else one for i, one in enumerate(channels.columns))
+        return channels._replace(columns=columns, notes=(*channels.notes, step.note))
+    return channels

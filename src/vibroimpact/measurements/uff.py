@@ -37,10 +37,10 @@ def read(path: Path) -> list[Columns]:
     pyuff = library("pyuff", path)
     _whole(path)
     try:
-        found = pyuff.UFF(str(path)).read_sets()
+        contents = pyuff.UFF(str(path)).read_sets()
     except Exception as error:  # pyuff raises whatever it meets in a damaged file
         raise damaged(path, "universal (UFF)", error) from None
-    sets = found if isinstance(found, list) else [found]
+    sets = contents if isinstance(contents, list) else [contents]
     factors: Mapping[str, Any] = next((one for one in sets if one.get("type") == 164), {})
     tables: list[tuple[Any, list[Column]]] = []
     for one in (one for one in sets if one.get("type") == 58):
@@ -89,11 +89,11 @@ def _whole(path: Path) -> None:
     InputError
         If the last set has no end mark.
     """
-    given = path.read_bytes()
-    lines = [line for one in given.splitlines() if (line := one.strip())]
-    if _BINARY.search(given):
+    raw = path.read_bytes()
+    lines = [line for one in raw.splitlines() if (line := one.strip())]
+    if _BINARY.search(raw):
         # The mark stands behind the last number, with no line of its own; pyuff counts the numbers.
-        if not given.rstrip().endswith(b"    -1"):
+        if not raw.rstrip().endswith(b"    -1"):
             raise _truncated(path)
         return
     marks = lines.count(b"-1")

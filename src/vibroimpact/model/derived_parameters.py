@@ -70,17 +70,17 @@ def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
     InputError
         If no stop has it.
     """
-    found = {}
+    by_side = {}
     for side in ("right", "left"):
         stop = getattr(oscillator, side)
         numbers = {} if stop is None else _fields(stop)
         if name in numbers:
-            found[side] = numbers
-    if not found:
+            by_side[side] = numbers
+    if not by_side:
         raise InputError(
             f"parameter: the rig has no stop with a {name}; use a rig with such a stop"
         )
-    return found
+    return by_side
 
 
 def _common(oscillator: Oscillator, name: str) -> float:
@@ -102,7 +102,7 @@ def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]
     InputError
         If there is none, or if another law has a stiffness.
     """
-    found = {}
+    by_side = {}
     for side in _numbers(oscillator, "stiffness"):
         stop = getattr(oscillator, side)
         pair = stop.spring_and_dashpot
@@ -111,8 +111,8 @@ def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]
                 f"parameter: {name!r} sets stiffness and damping of bumpers, but the {side} stop "
                 f"has the law {stop.kind!r}; use 'stops.{side}.stiffness'"
             )
-        found[side] = pair
-    return found
+        by_side[side] = pair
+    return by_side
 
 
 def _stiffness(oscillator: Oscillator, name: str) -> float:

@@ -280,8 +280,8 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
         not 0 and the motion without stops has no finite resonance peak, because the gap is divided
         by this peak (see ``peak_displacement``).
     """
-    found = as_rig(rig)
-    oscillator, a = found.oscillator, scale_of(found)
+    full_rig = as_rig(rig)
+    oscillator, a = full_rig.oscillator, scale_of(full_rig)
     oscillator.check_linear("dimensionless parameters")
     k = oscillator.isolator.initial_stiffness
 

@@ -108,12 +108,12 @@ def _by_root(oscillator: Oscillator) -> float:
     begin = max(low, min(high, 0.0))
 
     def stops(u: float) -> float:
-        found = 0.0
+        force = 0.0
         if right is not None and not isinstance(right, WallLaw):
-            found += right.static_force(u - right.gap)
+            force += right.static_force(u - right.gap)
         if left is not None and not isinstance(left, WallLaw):
-            found -= left.static_force(-u - left.gap)
-        return found
+            force -= left.static_force(-u - left.gap)
+        return force
 
     friction = isolator.friction if isinstance(isolator, FrictionIsolator) and not begin else 0.0
     push = oscillator.force - stops(begin)
@@ -159,5 +159,5 @@ def _by_root(oscillator: Oscillator) -> float:
 def _scale(oscillator: Oscillator, push: float) -> float:
     """A length to begin the search with, in m."""
     stiffness = oscillator.isolator.initial_stiffness
-    found = abs(push) / stiffness if stiffness else 0.0
-    return found if 0.0 < found < math.inf else 1e-3
+    length = abs(push) / stiffness if stiffness else 0.0
+    return length if 0.0 < length < math.inf else 1e-3

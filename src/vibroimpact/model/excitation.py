@@ -268,11 +268,11 @@ class Periodic(_Repeated):
     def _dimension(cls, data: Any) -> Any:
         if not isinstance(data, Mapping) or "amplitudes" not in data:
             return data
-        given, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
-        if not 1 <= len(given) <= MOST:
-            raise InputError(f"amplitudes: {len(given)} harmonics; pass 1 to {MOST}")
+        amplitudes, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
+        if not 1 <= len(amplitudes) <= MOST:
+            raise InputError(f"amplitudes: {len(amplitudes)} harmonics; pass 1 to {MOST}")
         values = []
-        for i, one in enumerate(given):
+        for i, one in enumerate(amplitudes):
             value, of = sized(one, of, f"amplitudes[{i}]")
             values.append(value)
         phases = data.get("phases")

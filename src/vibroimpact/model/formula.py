@@ -313,10 +313,10 @@ class Reader:
     def dimension(self, node: Node) -> Dimension:
         """Return the dimension of a node, and check its units on the first call."""
         if node not in self.units:
-            self.units[node] = self.found(node)
+            self.units[node] = self.dimension_of(node)
         return self.units[node]
 
-    def found(self, node: Node) -> Dimension:
+    def dimension_of(self, node: Node) -> Dimension:
         """Compute the dimension of a node from the dimensions of its parts."""
         kind, parts = node.kind, node.parts
         if kind == "number":
@@ -373,22 +373,22 @@ def value_of(node: Node, values: Mapping[str, float], by: str = "") -> tuple[flo
         return node.number, 0.0
     if kind == "variable":
         return values[node.text], 1.0 if node.text == by else 0.0
-    found = [value_of(part, values, by) for part in node.parts]
-    a, da = found[0]
+    operands = [value_of(part, values, by) for part in node.parts]
+    a, da = operands[0]
     try:
         if kind == "+":
-            return a + found[1][0], da + found[1][1]
+            return a + operands[1][0], da + operands[1][1]
         if kind == "-":
-            return a - found[1][0], da - found[1][1]
+            return a - operands[1][0], da - operands[1][1]
         if kind == "neg":
             return -a, -da
         if kind == "*":
-            return a * found[1][0], da * found[1][0] + a * found[1][1]
+            return a * operands[1][0], da * operands[1][0] + a * operands[1][1]
         if kind == "/":
-            b, db = found[1]
+            b, db = operands[1]
             return a / b, (da - a / b * db) / b
         if kind == "**":
-            n = found[1][0]
+            n = operands[1][0]
             if a < 0.0 and n != int(n):
                 return math.nan, math.nan
             return float(a**n), float(n * a ** (n - 1.0)) * da if da or n >= 1.0 else 0.0

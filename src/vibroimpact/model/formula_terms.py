@@ -26,19 +26,19 @@ def parity(node: Node) -> int:
         return EVEN
     if kind == "variable":
         return ODD
-    found = [parity(part) for part in node.parts]
+    parities = [parity(part) for part in node.parts]
     if kind in ("+", "-"):
-        return found[0] if found[0] == found[1] else NEITHER
+        return parities[0] if parities[0] == parities[1] else NEITHER
     if kind in ("*", "/"):
-        return found[0] * found[1]
+        return parities[0] * parities[1]
     if kind == "neg":
-        return found[0]
+        return parities[0]
     if kind == "**":
         n = node.parts[1].number
-        if found[0] == EVEN:
+        if parities[0] == EVEN:
             return EVEN
-        return NEITHER if n != int(n) else (found[0] if int(n) % 2 else abs(found[0]))
-    return EVEN if found[0] == EVEN else (FUNCTIONS[kind] if found[0] == ODD else NEITHER)
+        return NEITHER if n != int(n) else (parities[0] if int(n) % 2 else abs(parities[0]))
+    return EVEN if parities[0] == EVEN else (FUNCTIONS[kind] if parities[0] == ODD else NEITHER)
 
 
 def terms(node: Node) -> list[tuple[float, Node]]:
@@ -60,8 +60,8 @@ def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, 
     if kind == "variable":
         i = variables.index(node.text)
         return 1.0, tuple(1.0 if j == i else 0.0 for j in range(4))
-    found = [monomial(part, variables) for part in node.parts]
-    one = found[0]
+    operands = [monomial(part, variables) for part in node.parts]
+    one = operands[0]
     if one is None:
         return None
     if kind == "neg":
@@ -70,7 +70,7 @@ def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, 
         i = variables.index(node.parts[0].text)
         return 1.0, tuple(1.0 if j == i + 2 else 0.0 for j in range(4))
     if kind in ("*", "/"):
-        other = found[1]
+        other = operands[1]
         if other is None or (kind == "/" and (any(other[1]) or other[0] == 0.0)):
             return None
         powers = tuple(a + b for a, b in zip(one[1], other[1], strict=True))
@@ -181,7 +181,7 @@ def operations(
     InputError
         If there are too many operations or numbers.
     """
-    found: list[str | int] = []
+    symbols: list[str | int] = []
     numbers: list[float] = []
 
     def number(value: float) -> int:
@@ -192,39 +192,39 @@ def operations(
     def write(node: Node) -> None:
         kind, parts = node.kind, node.parts
         if kind == "number":
-            found.extend(("number", number(node.number)))
+            symbols.extend(("number", number(node.number)))
         elif kind == "variable":
-            found.append("xv"[variables.index(node.text)])
+            symbols.append("xv"[variables.index(node.text)])
         elif kind == "abs":
-            found.append(("|x|", "|v|")[variables.index(parts[0].text)])
+            symbols.append(("|x|", "|v|")[variables.index(parts[0].text)])
         elif kind == "**":
             raise_to(*parts)
         else:
             for part in parts:
                 write(part)
-            found.append(kind)
+            symbols.append(kind)
 
     def raise_to(base: Node, exponent: Node) -> None:
         n = exponent.number
         if n < 0.0:
-            found.extend(("number", number(1.0)))
+            symbols.extend(("number", number(1.0)))
             raise_to(base, exponent._replace(number=-n))
-            found.append("/")
+            symbols.append("/")
             return
         write(base)
         if n != int(n):
-            found.extend(("real power", number(n)))
+            symbols.extend(("real power", number(n)))
         elif n > 1.0:
-            found.extend(("power", int(n)))
+            symbols.extend(("power", int(n)))
 
     for i, (sign, term) in enumerate(signed):
         write(term)
         if i:
-            found.append("+" if sign > 0.0 else "-")
+            symbols.append("+" if sign > 0.0 else "-")
         elif sign < 0.0:
-            found.append("neg")
+            symbols.append("neg")
     for what, count, most in (
-        ("operations", len(found), MOST_SYMBOLS),
+        ("operations", len(symbols), MOST_SYMBOLS),
         ("numbers", len(numbers), OWN_NUMBERS),
     ):
         if count > most:
@@ -232,4 +232,4 @@ def operations(
                 f"formula: it has {count} {what}; shorten it to at most {most}, not counting the "
                 "terms in u, u**3, u**5 and v of an isolator"
             )
-    return found, numbers
+    return symbols, numbers

@@ -59,16 +59,16 @@ def units_of_numbers(
     A number that is written out, such as 2, has no unit. If the units then contradict each other,
     such numbers may have any unit.
     """
-    found = _solved(_Units(text, dict(numbers), variables, any_literal=False))
-    if found is None:
-        found = _solved(_Units(text, dict(numbers), variables, any_literal=True))
-    return found or {}
+    by_name = _solved(_Units(text, dict(numbers), variables, any_literal=False))
+    if by_name is None:
+        by_name = _solved(_Units(text, dict(numbers), variables, any_literal=True))
+    return by_name or {}
 
 
 def check_numbers(
     formula: object,
     numbers: Mapping[str, tuple[float, Dimension]],
-    given: Mapping[str, object],
+    arguments: Mapping[str, object],
     variables: tuple[str, str],
 ) -> None:
     """Raise an error if a number is given in another unit than the formula determines.
@@ -79,7 +79,7 @@ def check_numbers(
         Formula, as text.
     numbers
         Values in SI units and stated dimensions of the numbers, by name.
-    given
+    arguments
         The numbers as they were passed by the user.
     variables
         Names of the displacement and of the velocity.
@@ -94,10 +94,10 @@ def check_numbers(
         if name not in known:
             continue
         try:
-            to_si(given[name], known[name], name)
+            to_si(arguments[name], known[name], name)
         except InputError as error:
-            found = re.search(rf"\b{name}\b", text)
-            refuse_at(found.start() + 1 if found else 1, str(error))
+            occurrence = re.search(rf"\b{name}\b", text)
+            refuse_at(occurrence.start() + 1 if occurrence else 1, str(error))
 
 
 def _solved(reader: _Units) -> dict[str, Quantity] | None:

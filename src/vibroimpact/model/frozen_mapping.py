@@ -49,9 +49,9 @@ class FrozenMapping(Mapping[str, _V]):
         return core_schema.is_instance_schema(
             cls,
             serialization=core_schema.plain_serializer_function_ser_schema(
-                lambda found: {
+                lambda mapping: {
                     name: one.model_dump() if isinstance(one, BaseModel) else one
-                    for name, one in found.items()
+                    for name, one in mapping.items()
                 }
             ),
         )

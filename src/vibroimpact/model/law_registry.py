@@ -49,10 +49,10 @@ class Named(Model):
 
     @model_serializer(mode="wrap")
     def _with_its_kind(self, fields: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        found = {
+        table = {
             name: value for name, value in fields(self).items() if not self._unsaid(name, value)
         }
-        return found if self.usual else {"kind": self.kind, **found}
+        return table if self.usual else {"kind": self.kind, **table}
 
     @classmethod
     def _laws_with(cls, key: str) -> list[str]:

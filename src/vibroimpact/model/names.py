@@ -30,9 +30,9 @@ def check_name(name: Any, field: str) -> str:
         raise InputError(f"{field}: {shown(name)}; use a string")
     if len(name) > _LONGEST:
         raise InputError(f"{field}: {len(name)} characters; use at most {_LONGEST}")
-    if found := UNPRINTABLE.search(name):
+    if match := UNPRINTABLE.search(name):
         raise InputError(
-            f"{field}: {shown(name)} has the control character {found[0]!a}; remove this character"
+            f"{field}: {shown(name)} has the control character {match[0]!a}; remove this character"
         )
     return name
 

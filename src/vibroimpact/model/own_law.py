@@ -135,20 +135,20 @@ class Law(Named):
         numbers = kept.pop("numbers", ())
         if not isinstance(numbers, tuple):  # which a law passes on; a user has no such argument
             raise _misnamed("numbers")
-        found: dict[str, tuple[float, Dimension]] = {name: (value, None) for name, value in numbers}
+        pairs: dict[str, tuple[float, Dimension]] = {name: (value, None) for name, value in numbers}
         for name, value in data.items():
             if name in ARGUMENTS:
                 continue
             if not str(name).isidentifier() or name in _RESERVED:
                 raise _misnamed(name)
-            found[name] = to_si_of_any(value, name)
+            pairs[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None
-        check_numbers(kept["formula"], found, data, _variables(is_stop))
-        read = read_formula(kept["formula"], found, _variables(is_stop))
+        check_numbers(kept["formula"], pairs, data, _variables(is_stop))
+        read = read_formula(kept["formula"], pairs, _variables(is_stop))
         check_divisors(read, not is_stop)
         if not is_stop:
             _check_odd(read)
-        numbers = tuple((name, value) for name, (value, _) in found.items())
+        numbers = tuple((name, value) for name, (value, _) in pairs.items())
         if time := _relaxation_time(read.text, numbers, is_stop):
             warn_of_input(
                 f"formula {read.text!r}",
@@ -450,22 +450,22 @@ def _parts(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> 
     known: dict[tuple[float, ...], int] = {(1, 0, 0, 0): 0, (0, 1, 0, 0): 1}
     if not is_stop:
         known |= {(3, 0, 0, 0): 2, (5, 0, 0, 0): 3, (0, 1, 0, 1): 4}
-    found, rest = [0.0] * 5, []
+    coefficients, rest = [0.0] * 5, []
     for sign, term in terms(read.tree):
         made = monomial(term, read.variables)
         which = None if made is None else known.get(made[1])
         if made is None or which is None:
             rest.append((sign, term))
         else:
-            found[which] += sign * made[0]
-    if found[4] and found[1]:  # a dashpot has one power of the velocity
+            coefficients[which] += sign * made[0]
+    if coefficients[4] and coefficients[1]:  # a dashpot has one power of the velocity
         rest += [
             (sign, term)
             for sign, term in terms(read.tree)
             if (made := monomial(term, read.variables)) is not None and made[1] == (0, 1, 0, 1)
         ]
-        found[4] = 0.0
-    linear, dashpot, cubic, quintic, drag = found
+        coefficients[4] = 0.0
+    linear, dashpot, cubic, quintic, drag = coefficients
     return Parts(linear, dashpot, cubic, quintic, drag, tuple(rest))
 
 

@@ -87,10 +87,10 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
     """
     least, most = (1, None) if count is None else (count, count)
     examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
-    given = _given(vary, "ranges", examples, least, most)
+    ranges = _given(vary, "ranges", examples, least, most)
     return [
         read_range(varied, span, field_of(name))
-        for (name, span), varied in zip(given.items(), _parameters(given, rig), strict=True)
+        for (name, span), varied in zip(ranges.items(), _parameters(ranges, rig), strict=True)
     ]
 
 
@@ -149,14 +149,14 @@ def read_values(
         If it is not such a mapping, if there is no such parameter, or if a value is invalid or
         occurs twice.
     """
-    given = entries(vary, least, most)
-    found = _parameters(given, rig)
-    for name, one in zip(given, found, strict=True):
+    lists = entries(vary, least, most)
+    parameters = _parameters(lists, rig)
+    for name, one in zip(lists, parameters, strict=True):
         if one.name in but:
             raise InputError(f"vary: {name!r} {why}; remove it")
     return tuple(
         _values(varied, values, field_of(name), longest)
-        for (name, values), varied in zip(given.items(), found, strict=True)
+        for (name, values), varied in zip(lists.items(), parameters, strict=True)
     )
 
 
@@ -198,24 +198,24 @@ def _given(
     shortest = dict(itertools.islice(examples.items(), max(1, most or 1)))
     example = repr(shortest).replace("'", '"')
     what = f"a dict of {kind} by parameter{clause}, such as {example}"
-    given = dict(check_mapping(vary, "vary", what))
-    if len(given) < least or (most is not None and len(given) > most):
-        names = ", ".join(map(shown, given)) or "no parameter"
+    mapping = dict(check_mapping(vary, "vary", what))
+    if len(mapping) < least or (most is not None and len(mapping) > most):
+        names = ", ".join(map(shown, mapping)) or "no parameter"
         raise InputError(f"vary: {names}; pass {what}")
-    return given
+    return mapping
 
 
-def _parameters(given: Mapping[str, Any], rig: Rig | System) -> list[Parameter]:
-    found: dict[str, Parameter] = {}
-    for name in given:
+def _parameters(mapping: Mapping[str, Any], rig: Rig | System) -> list[Parameter]:
+    by_path: dict[str, Parameter] = {}
+    for name in mapping:
         one = parameter(name, rig, "vary")
-        if one.name in found:
-            first = next(other for other in given if parameter(other, rig, "vary") == one)
+        if one.name in by_path:
+            first = next(other for other in mapping if parameter(other, rig, "vary") == one)
             raise InputError(
                 f"vary: {first!r} and {name!r} are the same parameter; remove one of the two"
             )
-        found[one.name] = one
-    return list(found.values())
+        by_path[one.name] = one
+    return list(by_path.values())
 
 
 def _bounds(varied: Parameter, positive: bool = False) -> dict[str, float | None]:

@@ -202,20 +202,20 @@ def parameters(rig: Rig) -> dict[str, Parameter]:
         }
         return {**{name: usual(name, of) for name in ("frequency", "amplitude")}, **of_parts}
     sides = [side for side in ("right", "left") if getattr(rig.oscillator, side, None) is not None]
-    found = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
-    found["amplitude"] = _of("amplitude", amplitude_of(of))
+    by_path = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
+    by_path["amplitude"] = _of("amplitude", amplitude_of(of))
     for name, (first, *_) in _places(rig.oscillator).items():
-        found[name] = _of(name, first.accepts, rigid=getattr(first.owner, "rigid", False))
-    found |= {name: PARAMETERS[name] for name in DERIVED}
+        by_path[name] = _of(name, first.accepts, rigid=getattr(first.owner, "rigid", False))
+    by_path |= {name: PARAMETERS[name] for name in DERIVED}
     if len(sides) != 1:
-        return found
+        return by_path
     return {
         name: one._replace(
             long_name=_BOTH_STOPS.sub(
                 lambda both: f"the {sides[0]} {both[1].removesuffix('s')}", one.long_name
             )
         )
-        for name, one in found.items()
+        for name, one in by_path.items()
     }
 
 
@@ -340,19 +340,19 @@ def _steps(rig: Rig, name: str) -> list[Steps]:
             check_known(rest[0], list(getattr(system, part)), part.removesuffix("s"), name)
         if part in (_LINKS, _STOPS) and len(rest) > 1 and rest[1] not in ("left", "right"):
             # A law has fields that are not numbers, such as its kind.
-            found: list[Steps] = [(part, rest[0], _LAW, *rest[1:])]
+            paths: list[Steps] = [(part, rest[0], _LAW, *rest[1:])]
         else:
-            found = [(part, *rest)]
+            paths = [(part, *rest)]
     else:
         first, *rest = name.removeprefix("stops.").split(".")
-        found = [(first, *rest)]
+        paths = [(first, *rest)]
         if first not in ("right", "left") and (name == "gap" or name.startswith("stops.")):
             present = [side for side in ("right", "left") if getattr(system, side) is not None]
             each: list[Steps] = [(side, first) for side in present or ("right", "left")]
-            found = [one for one in each if _exists(system, one)]
-    if not found or not all(_exists(system, one) for one in found):
+            paths = [one for one in each if _exists(system, one)]
+    if not paths or not all(_exists(system, one) for one in paths):
         raise _unknown(name, rig, "parameter")
-    return found
+    return paths
 
 
 def _exists(part: Any, steps: Steps) -> bool:
@@ -378,15 +378,15 @@ def _places(system: System) -> dict[str, list[Place]]:
             steps = (_FORCES, name)
             still = Place(steps, 0.0, Accepts(FORCE, meaning="constant force"), system.forces)
             each.setdefault(".".join(steps), still)
-    found: dict[str, list[Place]] = {}
+    places: dict[str, list[Place]] = {}
     shared: dict[str, list[Place]] = {}
     for name, one in each.items():
         owner, _, field = name.rpartition(".")
         if owner.startswith("stops."):
             shared.setdefault("gap" if field == "gap" else f"stops.{field}", []).append(one)
         else:
-            found[name] = [one]
-    return {**found, **shared, **{n: [one] for n, one in each.items() if n not in found}}
+            places[name] = [one]
+    return {**places, **shared, **{n: [one] for n, one in each.items() if n not in places}}
 
 
 def _path(steps: Steps) -> str:
@@ -429,7 +429,7 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
 def _uneven(name: str, places: list[Place]) -> InputError:
     field = places[0].steps[-1]
     symbols = sorted({one.accepts.quantity.symbol for one in places})
-    told = (
+    words = (
         f"values of {field}, "
         f"{' and '.join(map(str, sorted({one.value for one in places})))} {symbols[0]}".rstrip()
         if len(symbols) == 1
@@ -437,7 +437,7 @@ def _uneven(name: str, places: list[Place]) -> InputError:
     )
     own = " or ".join(repr(f"{'.'.join(one.steps)}") for one in places)
     return InputError(
-        f"parameter: the stops have different {told}, so {name!r} has no value; use {own}, or a "
+        f"parameter: the stops have different {words}, so {name!r} has no value; use {own}, or a "
         "rig with equal stops"
     )
 
@@ -480,19 +480,19 @@ def _of_part(name: str, first: Place) -> Parameter:
         words = f"{words} of each stop"
     else:
         words = f"{words} of the {owner}"
-    found = _of(name, first.accepts)
-    return found._replace(long_name=words)
+    base = _of(name, first.accepts)
+    return base._replace(long_name=words)
 
 
 def _fields(kinds: Kinds) -> dict[str, Accepts]:
     """Return the numbers that laws can have, with their usual quantity."""
-    found: dict[str, Accepts] = {}
+    fields: dict[str, Accepts] = {}
     for law in kinds.classes.values():
         for name, field in law.model_fields.items():
             accepts = next((one for one in field.metadata if isinstance(one, Accepts)), None)
             if accepts is not None:
-                found.setdefault(name, accepts)
-    return found
+                fields.setdefault(name, accepts)
+    return fields
 
 
 _FIELDS = {"isolator": _fields(ISOLATORS), "stops": _fields(STOPS)}

@@ -49,8 +49,8 @@ def _of_items(annotation: Any) -> Accepts | None:
     for part in get_args(annotation):
         if isinstance(part, Accepts):
             return part
-        if (found := _of_items(part)) is not None:
-            return found
+        if (accepts := _of_items(part)) is not None:
+            return accepts
     return None
 
 

@@ -43,8 +43,8 @@ def public(function: Callable[_P, _R]) -> Callable[_P, _R]:
     @cache
     def checks() -> dict[str, _Check]:
         hints = get_type_hints(function, include_extras=True)
-        found = {name: _check_of(hints[name]) for name in signature.parameters}
-        return {name: check for name, check in found.items() if check is not None}
+        all_checks = {name: _check_of(hints[name]) for name in signature.parameters}
+        return {name: check for name, check in all_checks.items() if check is not None}
 
     @wraps(function)
     def checked(*args: _P.args, **kwargs: _P.kwargs) -> _R:

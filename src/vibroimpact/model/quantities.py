@@ -47,10 +47,10 @@ def _factors(symbol: str) -> list[tuple[str, float]] | None:
     """Return the units of a symbol with their powers, or None if it is not a product of powers."""
     above, _, below = symbol.replace("²", "^2").replace("³", "^3").partition("/")
     tokens = [(1.0, one) for one in above.split()] + [(-1.0, one) for one in below.split()]
-    found = [(sign, _FACTOR.fullmatch(token)) for sign, token in tokens]
-    if any(one is None for _, one in found):
+    matches = [(sign, _FACTOR.fullmatch(token)) for sign, token in tokens]
+    if any(one is None for _, one in matches):
         return None
-    return [(one[1], sign * float(one[2] or 1)) for sign, one in found if one and one[1] != "1"]
+    return [(one[1], sign * float(one[2] or 1)) for sign, one in matches if one and one[1] != "1"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,16 +71,16 @@ def read_rising(
     items = check_list(values, field, what=f"a list of values, such as [{quantity.example!r}]")
     if isinstance(values, np.ndarray) and values.dtype == float and values.ndim == 1:
         items = tuple(values.tolist())  # of plain floats, which are read at once
-    found = np.array(
+    numbers = np.array(
         [to_si(one, quantity, f"{field}[{i}]", **bounds) for i, one in enumerate(items)]
     )
-    if len(found) < least:
+    if len(numbers) < least:
         needed = _COUNTS[least].removeprefix("has ")
-        raise InputError(f"{field}: the list {_COUNTS[len(found)]}; pass at least {needed}")
-    for i in np.flatnonzero(np.diff(found) <= 0.0):
-        last, this = (pretty(float(one), quantity, 9) for one in found[i : i + 2])
+        raise InputError(f"{field}: the list {_COUNTS[len(numbers)]}; pass at least {needed}")
+    for i in np.flatnonzero(np.diff(numbers) <= 0.0):
+        last, this = (pretty(float(one), quantity, 9) for one in numbers[i : i + 2])
         raise InputError(
             f"{field}[{i + 1}]: {this} follows {last}; sort the values in increasing order, and "
             "pass each one only once"
         )
-    return found
+    return numbers

@@ -116,11 +116,11 @@ class Record:
         mean = float(record.acceleration.mean())
         if abs(mean) > _OFF * record.peak:
             share = 100.0 * abs(mean) / record.peak
-            told = (
+            note = (
                 f"the mean, {pretty(mean, ACCELERATION)} or {share:.3g} % of the peak, was not "
                 "subtracted"
             )
-            notes.append(told)
+            notes.append(note)
         if about.unit != NONE:
             notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
         record._about = about._replace(
@@ -267,8 +267,8 @@ class Record:
                 f"end: {ends:g} s leaves fewer than 2 samples after the start, {begins:g} s; move "
                 f"the end or the start, so that the part lasts at least one step, {self._step:g} s"
             )
-        told = f"cut to the part from {first * self._step:g} to {(behind - 1) * self._step:g} s"
-        return self._changed(self._acceleration[first:behind], told)
+        note = f"cut to the part from {first * self._step:g} to {(behind - 1) * self._step:g} s"
+        return self._changed(self._acceleration[first:behind], note)
 
     def levelled(self, baseline: Literal["mean", "line"] = "mean") -> Record:
         """Return the record minus its mean, or minus the straight line that fits it best.
@@ -284,10 +284,10 @@ class Record:
         time = np.linspace(-1.0, 1.0, len(self._acceleration))
         fitted = np.polynomial.polynomial.polyfit(time, self._acceleration, degree)
         line = np.polynomial.polynomial.polyval(time, fitted)
-        told = f"{baseline} subtracted: {line[0]:.6g} m/s²"
+        note = f"{baseline} subtracted: {line[0]:.6g} m/s²"
         if degree:
-            told += f" at the beginning and {line[-1]:.6g} m/s² at the end"
-        return self._changed(self._acceleration - line, told)
+            note += f" at the beginning and {line[-1]:.6g} m/s² at the end"
+        return self._changed(self._acceleration - line, note)
 
     def _changed(self, values: NDArray[np.float64], note: str) -> Record:
         """Return a copy with other samples; the change is noted."""
@@ -351,18 +351,18 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
     if hasattr(values, "__len__") and getattr(values, "ndim", 1) > 0 and len(values) > MOST_SAMPLES:
         raise InputError(f"{field}: {len(values)} samples; pass at most {MOST_SAMPLES}")
     try:
-        found = np.array(values, dtype=np.float64)
+        array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise InputError(
             f"{field}: {shown(values)} is not a list of numbers; pass the samples in "
             f"{quantity.symbol} as a list or an array"
         ) from None
-    if found.ndim != 1 or len(found) < least:
+    if array.ndim != 1 or len(array) < least:
         raise InputError(
-            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; "
+            f"{field}: {f'{len(array)} given' if array.ndim == 1 else f'shape {array.shape}'}; "
             f"pass one sequence of at least {least} samples in {quantity.symbol}"
         )
-    for i in np.flatnonzero(~np.isfinite(found))[:1]:
-        raise InputError(f"{field}[{i}]: {found[i]} is not finite; replace it by a finite number")
-    found.setflags(write=False)
-    return found
+    for i in np.flatnonzero(~np.isfinite(array))[:1]:
+        raise InputError(f"{field}[{i}]: {array[i]} is not finite; replace it by a finite number")
+    array.setflags(write=False)
+    return array

@@ -56,54 +56,56 @@ def read_values(
     InputError
         As in `vibroimpact.Record.read`.
     """
-    form, found, _ = read_channel(path, component, decimal)
-    notes = list(found.notes)
+    form, channel, _ = read_channel(path, component, decimal)
+    notes = list(channel.notes)
     try:
-        spacing = _spacing(found, step, str(path), notes)
+        spacing = _spacing(channel, step, str(path), notes)
     except _MissingError as error:
         try:
-            _unit(found, unit, str(path), [])
+            _unit(channel, unit, str(path), [])
         except _MissingError:
             both = f'{error}; unit: missing, too; pass that of the values: unit="g" (--unit g)'
             raise InputError(both) from None
         raise
-    taken, factor, quantity = _unit(found, unit, str(path), notes)
-    _check_peaks(found, taken, factor, quantity, str(path))
-    if found.times is not None:
-        found = found._replace(values=_interpolated(found, spacing, notes))
-    notes += of_end(found.values)
-    notes += of_times(spacing, len(found.values))
-    about = About(in_one_line(str(path)), form, found.station, found.component, taken, tuple(notes))
-    return found.values * factor, spacing, quantity, about
+    taken, factor, quantity = _unit(channel, unit, str(path), notes)
+    _check_peaks(channel, taken, factor, quantity, str(path))
+    if channel.times is not None:
+        channel = channel._replace(values=_interpolated(channel, spacing, notes))
+    notes += of_end(channel.values)
+    notes += of_times(spacing, len(channel.values))
+    about = About(
+        in_one_line(str(path)), form, channel.station, channel.component, taken, tuple(notes)
+    )
+    return channel.values * factor, spacing, quantity, about
 
 
-def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
+def _spacing(channel: Channel, step: Any, path: str, notes: list[str]) -> float:
     """The time between samples (s): the argument, or the value in the file."""
     if step is None:
-        if found.no_step:
-            raise InputError(f"record: {path!r}, {found.no_step}")
-        if found.step is None:
-            none = f"has no step in {found.where}" if found.where else "has no times"
+        if channel.no_step:
+            raise InputError(f"record: {path!r}, {channel.no_step}")
+        if channel.step is None:
+            none = f"has no step in {channel.where}" if channel.where else "has no times"
             raise _MissingError(
                 f"step: missing, but {path!r} {none}; pass the time between two samples, such as "
                 'step="10 ms" (--step 10ms)'
             )
-        return found.step
+        return channel.step
     spacing = to_si(step, TIME, "step", above=0.0)
-    if found.times is not None:
+    if channel.times is not None:
         return spacing
-    if found.step is None and found.no_step:
+    if channel.step is None and channel.no_step:
         notes.append(f"the step {pretty(spacing, TIME)} replaces the uneven times in the file")
-    elif found.step is not None and not math.isclose(found.step, spacing, rel_tol=1e-9):
+    elif channel.step is not None and not math.isclose(channel.step, spacing, rel_tol=1e-9):
         notes.append(
-            f"the step {pretty(spacing, TIME)} replaces the step in the file, {found.step:g} s"
+            f"the step {pretty(spacing, TIME)} replaces the step in the file, {channel.step:g} s"
         )
     return spacing
 
 
-def _interpolated(found: Channel, step: float, notes: list[str]) -> NDArray[np.float64]:
+def _interpolated(channel: Channel, step: float, notes: list[str]) -> NDArray[np.float64]:
     """Values at uneven times, interpolated at equal steps from the first time on."""
-    times = found.times
+    times = channel.times
     assert times is not None
     lasts = float(times[-1] - times[0])
     if not step <= lasts < step * MOST_SAMPLES:
@@ -113,8 +115,8 @@ def _interpolated(found: Channel, step: float, notes: list[str]) -> NDArray[np.f
             "range"
         )
     even = times[0] + step * np.arange(int(lasts / step * (1.0 + 1e-12)) + 1)
-    values: NDArray[np.float64] = np.interp(even, times, found.values)
-    peak = float(np.abs(found.values).max())
+    values: NDArray[np.float64] = np.interp(even, times, channel.values)
+    peak = float(np.abs(channel.values).max())
     lost = 100.0 * (1.0 - float(np.abs(values).max()) / peak) if peak else 0.0
     notes.append(
         f"the {len(times)} values at uneven times were interpolated at steps of "
@@ -124,29 +126,29 @@ def _interpolated(found: Channel, step: float, notes: list[str]) -> NDArray[np.f
 
 
 def _unit(
-    found: Channel, unit: str | None, path: str, notes: list[str]
+    channel: Channel, unit: str | None, path: str, notes: list[str]
 ) -> tuple[str, float, Quantity]:
     """The unit of the values, its size in SI units and its quantity."""
-    taken = unit or found.unit
+    taken = unit or channel.unit
     if taken is None:
-        if found.unclear:
+        if channel.unclear:
             raise _MissingError(
-                f"unit: missing, and the values in {path!r} are {found.unclear}, not "
+                f"unit: missing, and the values in {path!r} are {channel.unclear}, not "
                 "accelerations; pass the unit of displacements, or convert velocities to "
                 'accelerations; for counts or volts, pass unit="m/s^2" (--unit) and the factor to '
                 "Record.scaled (--scale)"
             )
-        taken = _of_peak(found)
+        taken = _of_peak(channel)
         if taken is None:
-            largest = float(np.abs(found.values).max())
+            largest = float(np.abs(channel.values).max())
             raise _MissingError(
                 f"unit: missing, because {path!r} states no unit of its values, the largest of "
                 f'which is {largest:g}; pass it, such as unit="g" (--unit g)'
             )
     if unit == NONE:  # of a dimensionless record, whatever the file states
-        if found.unit is not None:
+        if channel.unit is not None:
             notes.append(
-                f"the values are read as numbers without the unit in the file, {found.unit}"
+                f"the values are read as numbers without the unit in the file, {channel.unit}"
             )
         return NONE, 1.0, ACCELERATION
     try:
@@ -154,34 +156,34 @@ def _unit(
     except InputError as error:
         if unit is not None:
             raise
-        told = "if the file states a wrong unit, pass the right one as unit= (--unit)"
-        raise InputError(f"record: {path!r}: {error}; {told}") from None
-    for other in () if unit else found.others:
+        advice = "if the file states a wrong unit, pass the right one as unit= (--unit)"
+        raise InputError(f"record: {path!r}: {error}; {advice}") from None
+    for other in () if unit else channel.others:
         if not _same(other, factor, quantity):
-            of = f" of {found.component!r}" if found.component else ""
+            of = f" of {channel.component!r}" if channel.component else ""
             raise InputError(
                 f"record: {path!r} states two units{of}, {taken!r} and {other!r}; pass the unit of "
                 "the values as unit= (--unit)"
             )
-    if unit is None and found.of_name and not _same(found.of_name, factor, quantity):
+    if unit is None and channel.of_name and not _same(channel.of_name, factor, quantity):
         notes.append(
             f"the values are read in {taken}, although the name of the column states "
-            f"{found.of_name}"
+            f"{channel.of_name}"
         )
-    if unit is not None and found.unit is not None and not _same(found.unit, factor, quantity):
-        notes.append(f"the unit {unit} replaces the unit in the file, {found.unit}")
+    if unit is not None and channel.unit is not None and not _same(channel.unit, factor, quantity):
+        notes.append(f"the unit {unit} replaces the unit in the file, {channel.unit}")
     return taken, factor, quantity
 
 
-def _of_peak(found: Channel) -> str | None:
+def _of_peak(channel: Channel) -> str | None:
     """The unit of a stated peak, if the values have this peak and nothing else states a unit."""
-    for peak in found.peaks:
-        if peak.unit and any(_near(peak, size, 1.0) for size in _peaks(found.values)):
+    for peak in channel.peaks:
+        if peak.unit and any(_near(peak, size, 1.0) for size in _peaks(channel.values)):
             return peak.unit
     return None
 
 
-def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, path: str) -> None:
+def _check_peaks(channel: Channel, unit: str, factor: float, quantity: Quantity, path: str) -> None:
     """Compare the stated peaks with the values, as they are and without their mean.
 
     Raises
@@ -191,9 +193,9 @@ def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, p
     """
     if quantity is not ACCELERATION or unit == NONE:
         return
-    for peak in found.peaks:
+    for peak in channel.peaks:
         size = to_si(f"1 {peak.unit}", quantity, "unit") / factor if peak.unit else 1.0
-        sizes = _peaks(found.values)
+        sizes = _peaks(channel.values)
         if not any(_near(peak, one, size) for one in sizes):
             also = ", or pass the unit of the values as unit= (--unit)" if peak.unit else ""
             raise InputError(
@@ -208,10 +210,10 @@ def _peaks(values: NDArray[np.float64]) -> list[float]:
 
     Some headers state the largest and the least value; networks subtract the mean.
     """
-    found = [float(np.abs(values).max())]
+    peaks = [float(np.abs(values).max())]
     for part in (values, values - values.mean()):
-        found += [float(part.max()), float(-part.min())]
-    return found
+        peaks += [float(part.max()), float(-part.min())]
+    return peaks
 
 
 def _near(peak: Peak, size: float, factor: float) -> bool:

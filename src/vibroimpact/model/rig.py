@@ -245,10 +245,10 @@ class Rig:
         InputError
             If several harmonics or a record shake the rig, or if the rig has no shaking.
         """
-        found = self.periodic
-        if not isinstance(found, Harmonic):
+        shaking = self.periodic
+        if not isinstance(shaking, Harmonic):
             raise InputError("shaking: it has several harmonics; use one sine, such as a Harmonic")
-        return found
+        return shaking
 
     @property
     def record(self) -> Record:

@@ -101,35 +101,35 @@ class State(Model):
         """Read deformations by side; a side that is None is deduced, as if it were left out."""
         if not isinstance(data, Mapping):
             return data
-        given = data.get("deformation")
-        given = {} if given is None else given
-        if not isinstance(given, Mapping):
+        table = data.get("deformation")
+        table = {} if table is None else table
+        if not isinstance(table, Mapping):
             raise InputError(
-                f"deformation: {shown(given)} is not a mapping from stops; pass deformations such "
+                f"deformation: {shown(table)} is not a mapping from stops; pass deformations such "
                 'as {"right": "2 mm"}'
             )
-        found = {}
-        for side, value in given.items():
+        by_side = {}
+        for side, value in table.items():
             if side not in _SIDES:
                 raise InputError(
                     f"deformation.{side}: this is not a stop of an Oscillator; use right or left"
                 )
             if value is not None:
-                found[str(side)] = _DEFORMATION.at(value, f"deformation.{side}")
-        known = FrozenMapping({side: found[side] for side in _SIDES if side in found})
+                by_side[str(side)] = _DEFORMATION.at(value, f"deformation.{side}")
+        known = FrozenMapping({side: by_side[side] for side in _SIDES if side in by_side})
         return {**data, "deformation": known}
 
     def __new__(cls, *args: Any, **values: Any) -> Any:
         """Return the state of an assembly if values are mappings from names."""
-        given = dict(zip(cls.model_fields, args, strict=False)) | values
-        by_name = [key for key in _BY_NAME if given.get(key) is not None]
-        by_name += [key for key in _BOTH if isinstance(given.get(key), Mapping)]
-        stops = given.get("deformation")
-        if isinstance(stops, Mapping) and not {*stops} <= {*_SIDES} and not {*given} & {*_BOTH}:
+        arguments = dict(zip(cls.model_fields, args, strict=False)) | values
+        by_name = [key for key in _BY_NAME if arguments.get(key) is not None]
+        by_name += [key for key in _BOTH if isinstance(arguments.get(key), Mapping)]
+        stops = arguments.get("deformation")
+        if isinstance(stops, Mapping) and not {*stops} <= {*_SIDES} and not {*arguments} & {*_BOTH}:
             by_name.append("deformation")
         if cls is not State or not by_name:
             return super().__new__(cls)
-        for key in given:
+        for key in arguments:
             if key not in (*_BOTH, "deformation", *_BY_NAME, "phase"):
                 other = _INSTEAD.get(key)
                 use = f"use {other}" if other else f"remove {key}"
@@ -137,7 +137,7 @@ class State(Model):
                     f"{key}: passed together with {by_name[0]} by name, which is for an Assembly; "
                     f"{use}, or pass numbers for an Oscillator"
                 )
-        return AssemblyState(**given)
+        return AssemblyState(**arguments)
 
     @takes_fields
     def __init__(

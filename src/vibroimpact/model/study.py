@@ -71,9 +71,9 @@ class ExcitationTable(Model):
     @model_validator(mode="after")
     def _one_of_them(self) -> Self:
         ways = {name: getattr(self, name) for name in ("amplitude", "amplitudes", "record")}
-        given = [name for name, value in ways.items() if value is not None]
-        if len(given) > 1:
-            raise InputError(f"{' and '.join(given)} are given together; keep one of them")
+        keys = [name for name, value in ways.items() if value is not None]
+        if len(keys) > 1:
+            raise InputError(f"{' and '.join(keys)} are given together; keep one of them")
         beside = dict.fromkeys(("component", "step", "unit", "decimal"), "record")
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
@@ -130,14 +130,14 @@ class RigStudy(Model):
         if self.name is not None:
             check_name(self.name, "name")
         systems = ("case", "oscillator", "assembly")
-        given = [name for name in systems if getattr(self, name) is not None]
-        if not given:
+        keys = [name for name in systems if getattr(self, name) is not None]
+        if not keys:
             raise InputError(
                 'neither case nor oscillator is given; add case, such as case = "B2-G1-A3", or '
                 "the table [oscillator] or [assembly]"
             )
-        if len(given) > 1:
-            raise InputError(f"both {given[0]} and {given[1]} are given; remove one of them")
+        if len(keys) > 1:
+            raise InputError(f"both {keys[0]} and {keys[1]} are given; remove one of them")
         if self.parameters is not None and self.case is None:
             raise InputError(
                 "parameters: this key is only for a laboratory case; remove it, or replace the "
@@ -284,11 +284,11 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
 
 def _deeper(data: Any, levels: int) -> bool:
     """Whether tables and lists lie within each other more than so many levels deep."""
-    found = [data]
+    nodes = [data]
     for _ in range(levels):
-        inside = (part.values() if isinstance(part, dict) else part for part in found)
-        found = [one for part in inside for one in part if isinstance(one, dict | list)]
-    return bool(found)
+        inside = (part.values() if isinstance(part, dict) else part for part in nodes)
+        nodes = [one for part in inside for one in part if isinstance(one, dict | list)]
+    return bool(nodes)
 
 
 def read_rig_study(path: Path) -> Rig:

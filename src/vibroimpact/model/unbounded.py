@@ -71,8 +71,8 @@ def _count(shaken: Repeated) -> int:
 def _sizes(rig: Rig, frequency: float) -> list[float]:
     """Base acceleration (m/s²) of each harmonic, or what does the same."""
     oscillator, shaken = rig.oscillator, rig.periodic
-    found = shaken.replace(frequency=frequency).acceleration(oscillator.mass, math.tau * frequency)
-    return [abs(float(one)) for one in (found if isinstance(shaken, Periodic) else [found])]
+    values = shaken.replace(frequency=frequency).acceleration(oscillator.mass, math.tau * frequency)
+    return [abs(float(one)) for one in (values if isinstance(shaken, Periodic) else [values])]
 
 
 def _exceeds(oscillator: Oscillator, size: float) -> bool:

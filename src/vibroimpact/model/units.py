@@ -192,8 +192,8 @@ def accepted(
     maximum: float | None = None,
 ) -> str:
     """Describe the accepted values of a quantity, with an example."""
-    told = (("greater than", above), ("of at least", minimum), ("of at most", maximum))
-    bounds = [f"{words} {_bound(end, quantity)}" for words, end in told if end is not None]
+    limits = (("greater than", above), ("of at least", minimum), ("of at most", maximum))
+    bounds = [f"{words} {_bound(end, quantity)}" for words, end in limits if end is not None]
     if minimum is not None and maximum is not None:
         bounds = [f"from {minimum:g} to {_bound(maximum, quantity)}"]
     sign = "-" if maximum is not None and maximum <= 0 else ""
@@ -403,8 +403,8 @@ def _from_pint(measured: Any, quantity: Quantity) -> Decimal | float:
         # pint converts rad/s to Hz by a factor of 1, since it holds the radian for a
         # number. A frequency counts cycles, and a cycle is 2π radians.
         turn = _TWO_PI if isinstance(magnitude, Decimal) else math.tau
-        found: Decimal | float = magnitude / turn
-        return found
+        frequency: Decimal | float = magnitude / turn
+        return frequency
     if dimension != tuple((name, round(power, 5)) for name, power in quantity.base):
         if quantity is MASS and dimension == FORCE.base and magnitude > 0:
             weighing = pretty(float(magnitude) / GRAVITY, MASS)

@@ -136,11 +136,11 @@ def takes_fields(init: _Init) -> _Init:
     @wraps(init)
     def passed(self: Model, /, *args: Any, **values: Any) -> None:
         init(self, *args, **values)  # refuses arguments that do not fit the signature
-        given = dict(zip(names, args, strict=False)) | values
-        for name in optional & given.keys():
-            if given[name] is None:
-                del given[name]
-        Model.__init__(self, **given)
+        fields = dict(zip(names, args, strict=False)) | values
+        for name in optional & fields.keys():
+            if fields[name] is None:
+                del fields[name]
+        Model.__init__(self, **fields)
 
     return constructor(cast("_Init", passed))
 
@@ -171,10 +171,10 @@ class _Listed(ModelMetaclass):
             if not unknown:
                 raise
             keys = in_order(model)
-            told = [f"{name[:SHOWN]}: {_unknown(model, keys, name)}" for name in unknown[:MOST]]
-            rest = len(unknown) - len(told)
+            messages = [f"{name[:SHOWN]}: {_unknown(model, keys, name)}" for name in unknown[:MOST]]
+            rest = len(unknown) - len(messages)
             more = f" ({rest} more to correct)" if rest else ""
-            raise InputError("; ".join(told) + more) from None
+            raise InputError("; ".join(messages) + more) from None
 
     def __dir__(cls) -> list[str]:  # noqa: N805
         own = {
@@ -296,26 +296,26 @@ class Model(BaseModel, metaclass=_Listed):
 
     def _accepts(self, name: str) -> Accepts | None:
         """Return what a field accepts, given the other values, if it is a quantity."""
-        found = _quantities(type(self)).get(name)
-        return None if found is None else found.of(vars(self))
+        accepts = _quantities(type(self)).get(name)
+        return None if accepts is None else accepts.of(vars(self))
 
     def knobs(self) -> dict[str, tuple[float, Accepts]]:
         """Return the numbers that can be varied, by name: their values and what they accept."""
-        found = {}
+        by_name = {}
         for name, accepts in _quantities(type(self)).items():
             if isinstance(value := getattr(self, name), float):
-                found[name] = value, accepts.of(vars(self))
-        return found
+                by_name[name] = value, accepts.of(vars(self))
+        return by_name
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the paths of the fields, such as ``right.gap``, and their values with units."""
-        found = []
+        pairs = []
         for name, value, text in self._read():
             if isinstance(value, Model):
-                found += [(f"{name}.{path}", part) for path, part in value.rows()]
+                pairs += [(f"{name}.{path}", part) for path, part in value.rows()]
             else:
-                found.append((name, text))
-        return found
+                pairs.append((name, text))
+        return pairs
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         """Yield name, value and readable text of each field."""
@@ -380,11 +380,11 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     # A misspelt key is also a missing one; the misspelling is what the user must see.
     unknown = [mistake for mistake in mistakes if mistake["type"] == "extra_forbidden"]
     own = [one for one in mistakes if not _depends(one)] or mistakes
-    told = unknown[:MOST] or own[:1]
-    meant = {_meant(one, model) for one in told if one in unknown}
-    rest = sum(one["type"] != "missing" or one["loc"] not in meant for one in own) - len(told)
+    selection = unknown[:MOST] or own[:1]
+    meant = {_meant(one, model) for one in selection if one in unknown}
+    rest = sum(one["type"] != "missing" or one["loc"] not in meant for one in own) - len(selection)
     more = f" ({rest} more to correct)" if rest else ""
-    lines = "; ".join(_mistake(mistake, model, where) for mistake in told)
+    lines = "; ".join(_mistake(mistake, model, where) for mistake in selection)
     return " ".join(f"{lines}{more}".split())
 
 

@@ -92,8 +92,8 @@ def system_of(subject: Any) -> Any:
 
 def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:
     """Return whether all systems in the parameters of a dataset have no units."""
-    found = list(_systems(json.loads(parameters) if isinstance(parameters, str) else parameters))
-    return bool(found) and all(one.get("units") == NONE for one in found)
+    systems = list(_systems(json.loads(parameters) if isinstance(parameters, str) else parameters))
+    return bool(systems) and all(one.get("units") == NONE for one in systems)
 
 
 def _systems(value: object) -> Iterator[Mapping[str, Any]]:

@@ -25,10 +25,10 @@ def read(file: File) -> list[Channel]:
     rows = len(table.lines)
     check_count(file, table.statements, (rows, rows * len(values), rows * len(table.columns)))
     time = None if table.time is None else table.columns[table.time].units
-    found = sampling(table, time.unit if time else None)
-    problem = found.uneven
-    if found.contradiction:
-        problem = f"{found.contradiction}, or pass step= (--step)"
+    timing = sampling(table, time.unit if time else None)
+    problem = timing.uneven
+    if timing.contradiction:
+        problem = f"{timing.contradiction}, or pass step= (--step)"
     if _only_counts(table):
         problem = (
             "its times only count the rows (0, 1, 2, ...); pass step= (--step), such as '5 ms'"
@@ -42,8 +42,8 @@ def read(file: File) -> list[Channel]:
         )
     return [
         _channel(table, column, len(values))._replace(
-            step=found.step,
-            notes=(*table.notes, *_left_out(table), *([found.note] if found.note else [])),
+            step=timing.step,
+            notes=(*table.notes, *_left_out(table), *([timing.note] if timing.note else [])),
             no_step=problem,
         )
         for column in values
@@ -125,8 +125,8 @@ def _missing(table: Table, column: Column) -> str:
         return ""
     row = int(gone[0])
     of = f", column {parted(column.name)[0]!r}" if column.name else ""
-    told = "a value is missing" if np.isnan(column.values[row]) else "inf is not finite"
-    return f"line {int(table.lines[row]) + 1}{of}: {told}; replace it by a finite number"
+    fault = "a value is missing" if np.isnan(column.values[row]) else "inf is not finite"
+    return f"line {int(table.lines[row]) + 1}{of}: {fault}; replace it by a finite number"
 
 
 FORMAT = Format("columns", lambda file: True, read)

@@ -115,8 +115,8 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     if at < len(file.lines):
         file.behind(at, count, width)
         if not re.match(r"\s*(End-of-data|/&)", file.lines[at], re.IGNORECASE):
-            told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel; "
-            raise file.refused(at, f"{told}end it with 'End-of-data'")
+            message = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel; "
+            raise file.refused(at, f"{message}end it with 'End-of-data'")
     head = file.lines[first : first + int(begins[1])]
     code = next((c for line in said if (c := _CODE.search(line))), None)
     towards = next((t[1] for line in head if (t := _TOWARDS.match(line))), "")

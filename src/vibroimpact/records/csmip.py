@@ -90,8 +90,8 @@ def read(file: File) -> list[Channel]:
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
     if not _BEGINS.match(file.lines[first]):
-        told = f"{file.lines[first].strip()[:40]!r} does not start a channel; add its header"
-        raise file.refused(first, told)
+        message = f"{file.lines[first].strip()[:40]!r} does not start a channel; add its header"
+        raise file.refused(first, message)
     raw = bool(_RAW.match(file.lines[first]))
     at = first
     while not (data := _DATA.match(file.line(at))):
@@ -122,12 +122,12 @@ _Head = dict[re.Pattern[str], tuple[int, re.Match[str]]]
 
 def _head(file: File, first: int, last: int) -> _Head:
     """The lines of a header that state something, and their matches."""
-    found: _Head = {}
+    entries: _Head = {}
     for at in range(first, last):
         for pattern in (_COUNT, _LENGTH, _RAW_UNIT, _RAW_PEAK, _PEAK, _TOWARDS, _STATION):
             if match := pattern.match(file.lines[at]):
-                found[pattern] = at, match
-    return found
+                entries[pattern] = at, match
+    return entries
 
 
 def _series(file: File, above: int, data: re.Match[str], head: _Head) -> tuple[Channel, int]:
@@ -214,11 +214,11 @@ def _end(file: File, at: int, first: int) -> int:
             _, at = file.numbers(at + 1, int(other[1]), width or None)
             continue
         if line.strip():
-            told = (
+            message = (
                 f"{line.strip()[:40]!r} does not end the channel that starts in line {first + 1}; "
                 "end it with '/&'"
             )
-            raise file.refused(at, told)
+            raise file.refused(at, message)
         at += 1
     return at
 

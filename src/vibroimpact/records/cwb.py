@@ -30,8 +30,8 @@ def read(file: File) -> list[Channel]:
     names = [_COMPONENT.fullmatch(name.strip()) for name in sequence[1].strip(" ;").split(";")]
     components = [name[1] for name in names if name]
     if len(components) < len(names):
-        told = f"{sequence[1].strip()!r} does not name components"
-        raise file.refused(ordered, f"{told}; write 'Time U(+); N(+); E(+)'")
+        message = f"{sequence[1].strip()!r} does not name components"
+        raise file.refused(ordered, f"{message}; write 'Time U(+); N(+); E(+)'")
     rated, rate = file.require_line(rf"#\s*SampleRate\s*\(Hz\)\s*:\s*{_NUMBER}", "the sample rate")
     lasts, length = file.require_line(rf"#\s*RecordLength\s*\(sec\)\s*:\s*{_NUMBER}", "the length")
     if float(rate[1]) <= 0.0:
@@ -45,14 +45,14 @@ def read(file: File) -> list[Channel]:
     problem = spaced.no_step
     if spaced.step:
         problem = step_conflict(rated, rate[0], 1.0 / float(rate[1]), spaced.step, "its times")
-    found = []
+    channels = []
     for column, name in enumerate(components, start=1):
         peaks: tuple[Peak, ...] = ()
         pattern = rf"#\s*AmplitudeMAX\.?\s*{name}\s*:\s*{_NUMBER}\s*~\s*{_NUMBER}"
         if peak := file.find_line(pattern):
             larger = max(peak[1].groups(), key=lambda stated: abs(float(stated)))
             peaks = read_peak(peak[0], larger, None, peak[1][0])
-        found.append(
+        channels.append(
             Channel(
                 rows[:, column],
                 spaced.step,
@@ -65,7 +65,7 @@ def read(file: File) -> list[Channel]:
                 peaks=peaks,
             )
         )
-    return found
+    return channels
 
 
 FORMAT = Format("CWB", recognises, read)

@@ -37,14 +37,14 @@ def read(file: File) -> list[Channel]:
         try:
             return float(entries.get(name) or "nan")
         except ValueError:
-            told = f"{name}: {entries[name]!r} is not a number; write a number"
-            raise file.refused(where[name], told) from None
+            message = f"{name}: {entries[name]!r} is not a number; write a number"
+            raise file.refused(where[name], message) from None
 
-    found = number("NDATA")
-    if not 1.0 <= found < math.inf:
-        told = f"NDATA: {entries.get('NDATA')!r}; use a record with at least 2 values"
-        raise file.refused(where.get("NDATA", at - 1), told)
-    count = int(found)
+    raw_count = number("NDATA")
+    if not 1.0 <= raw_count < math.inf:
+        message = f"NDATA: {entries.get('NDATA')!r}; use a record with at least 2 values"
+        raise file.refused(where.get("NDATA", at - 1), message)
+    count = int(raw_count)
     values, behind = file.numbers(at, count)
     for further in range(behind, len(file.lines)):
         if _ENTRY.match(file.lines[further]):

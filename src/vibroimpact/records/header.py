@@ -18,15 +18,15 @@ from vibroimpact.tables.units import spelled
 
 def each_channel(file: File, read: Callable[[File, int], tuple[Channel, int]]) -> list[Channel]:
     """Read the channels of a file in turn; `read` returns one, and the line after it."""
-    found = []
+    channels = []
     at = 0
     while at < len(file.lines):
         if file.lines[at].strip():
             channel, at = read(file, at)
-            found.append(channel)
+            channels.append(channel)
         else:
             at += 1
-    return found
+    return channels
 
 
 def check_stated(file: File, at: int, count: int, what: str = "values") -> int:
@@ -57,23 +57,23 @@ def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[P
     return (Peak(value, spelled(unit) if unit else None, at, shown, last_digit(number)),)
 
 
-def step_conflict(at: int, text: str, stated: float, found: float, source: str) -> str:
+def step_conflict(at: int, text: str, stated: float, other: float, source: str) -> str:
     """Return why a stated step (s) contradicts one of another source, or an empty string.
 
     Parameters
     ----------
     at, text
         Line of the statement, starting from 0, and the statement as it is shown.
-    stated, found
+    stated, other
         Both steps.
     source
         Source of the other one, such as ``"the times"``.
     """
-    if same(found, stated):
+    if same(other, stated):
         return ""
     return (
         f"line {at + 1} states {' '.join(text.split())!r}, a step of {stated:g} s, but {source} "
-        f"have steps of {found:.6g} s; correct one of them, or pass step= (--step)"
+        f"have steps of {other:.6g} s; correct one of them, or pass step= (--step)"
     )
 
 
@@ -91,8 +91,8 @@ def duration_conflict(at: int, number: str, text: str, count: int, step: float) 
     if float(number) == 0.0:
         return ""
     stated = Number(float(number), at, " ".join(text.split()), last_digit(number))
-    told = duration_contradiction(Statements(durations=(stated,)), step, count)
-    return told and f"{told}, or pass step= (--step)"
+    contradiction = duration_contradiction(Statements(durations=(stated,)), step, count)
+    return contradiction and f"{contradiction}, or pass step= (--step)"
 
 
 class TimeSteps(NamedTuple):
@@ -120,21 +120,21 @@ def read_times(file: File, at: int, times: NDArray[np.float64]) -> TimeSteps:
     steps = np.diff(times)
     if steps.min() < 0.0 or times[-1] <= times[0]:
         before = int(steps.argmin())
-        told = f"the time {times[before]:g} s is followed by {times[before + 1]:g} s"
-        raise file.refused(at, f"{told}; pass a file whose times increase")
-    found = spacing(times)
-    if found.step is not None:
+        problem = f"the time {times[before]:g} s is followed by {times[before + 1]:g} s"
+        raise file.refused(at, f"{problem}; pass a file whose times increase")
+    even = spacing(times)
+    if even.step is not None:
         note = (
-            f"its times are uneven by up to {found.off:.3g} s, so the average step of "
-            f"{found.step:.6g} s is used"
+            f"its times are uneven by up to {even.off:.3g} s, so the average step of "
+            f"{even.step:.6g} s is used"
         )
-        return TimeSteps(_decimal(found.step, times), None, "", () if found.is_exact else (note,))
-    told = (
+        return TimeSteps(_decimal(even.step, times), None, "", () if even.is_exact else (note,))
+    problem = (
         f"line {at + 1}: its times are uneven, with steps from {steps.min():.3g} to "
         f"{steps.max():.3g} s; pass a step as step= (--step), such as '5 ms', at which the values "
         "are interpolated"
     )
-    return TimeSteps(None, times, told, ())
+    return TimeSteps(None, times, problem, ())
 
 
 def _decimal(step: float, times: NDArray[np.float64]) -> float:

@@ -44,16 +44,16 @@ def _find(file: File, name: str) -> tuple[int, str] | None:
 
 
 def _entry(file: File, name: str, pattern: str) -> tuple[int, re.Match[str]]:
-    found = _find(file, name)
-    if found is None:
-        told = f"the header has no {name!r}; use a file with a header of K-NET"
-        raise file.refused(min(_HEADER, len(file.lines)) - 1, told)
-    match = re.match(pattern, found[1])
+    entry = _find(file, name)
+    if entry is None:
+        message = f"the header has no {name!r}; use a file with a header of K-NET"
+        raise file.refused(min(_HEADER, len(file.lines)) - 1, message)
+    match = re.match(pattern, entry[1])
     if match is None:
         raise file.refused(
-            found[0], f"{found[1]!r} is not a {name}; use a file with a header of K-NET"
+            entry[0], f"{entry[1]!r} is not a {name}; use a file with a header of K-NET"
         )
-    return found[0], match
+    return entry[0], match
 
 
 def read(file: File) -> list[Channel]:
@@ -99,8 +99,8 @@ def read_csv(file: File) -> list[Channel]:
     )
     columns = [_CSV_COLUMN.fullmatch(name.strip()) for name in file.lines[above].split(",")[1:]]
     if not all(columns) or len(columns) < 2 or (columns[0] and columns[0][2] != "s"):
-        told = f"{file.lines[above][:60]!r} does not name columns with units"
-        raise file.refused(above, f"{told}; write '#Time,RelativeTime(s),N-S(gal),...'")
+        message = f"{file.lines[above][:60]!r} does not name columns with units"
+        raise file.refused(above, f"{message}; write '#Time,RelativeTime(s),N-S(gal),...'")
     names = [(name[1], name[2]) for name in columns[1:] if name]
     rates, rate = _under(file, r"#SamplingFrequency\(Hz\)", "the sampling frequency")
     lasts, duration = _under(file, r"#DurationTime\(s\)", "the duration")

@@ -62,7 +62,7 @@ def segments(file: File) -> list[list[Signal]]:
         at += 1
     at = _header(file, 1, mark, about)
     decimal = (about.get("decimal_separator") or ["."])[0] or "."
-    found = []
+    all_segments = []
     while True:
         while at < len(file.lines) and not file.lines[at].strip():
             at += 1
@@ -72,8 +72,8 @@ def segments(file: File) -> list[list[Signal]]:
         if not _names(file.lines[at], mark):
             at = _header(file, at, mark, own)
         signals, at = _segment(file, at, mark, decimal, own)
-        found.append(signals)
-    return found
+        all_segments.append(signals)
+    return all_segments
 
 
 def _cells(line: str, mark: str) -> list[str]:
@@ -168,14 +168,16 @@ def _number(file: File, at: int, cell: str, decimal: str) -> float:
 
 def read(file: File) -> list[Channel]:
     """Read the channels of a file that has one segment."""
-    found = segments(file)
-    if len(found) != 1:
-        raise file.refused(0, f"the file has {len(found)} segments; use a file with one segment")
+    all_segments = segments(file)
+    if len(all_segments) != 1:
+        raise file.refused(
+            0, f"the file has {len(all_segments)} segments; use a file with one segment"
+        )
     channels = []
-    for signal in found[0]:
+    for signal in all_segments[0]:
         if signal.axis != "time":
-            told = f"{signal.name!r} is a function of {signal.axis!r}; use values over time"
-            raise file.refused(0, told)
+            message = f"{signal.name!r} is a function of {signal.axis!r}; use values over time"
+            raise file.refused(0, message)
         step = signal.step
         if step is None and len(signal.times) > 1 and (even := spacing(signal.times)).is_exact:
             step = even.step

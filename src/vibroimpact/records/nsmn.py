@@ -37,10 +37,10 @@ def read(file: File) -> list[Channel]:
     components = columns[1].split()
     rows = file.rows(above + 1, len(components))
     file.check_count(counted, int(count[1]), len(rows))
-    found = []
+    channels = []
     for column, name in enumerate(components):
         text = f"({name}) {peaks.get(name)}"
-        found.append(
+        channels.append(
             Channel(
                 rows[:, column],
                 float(step[1]) or None,
@@ -53,7 +53,7 @@ def read(file: File) -> list[Channel]:
                 else (),
             )
         )
-    return found
+    return channels
 
 
 FORMAT = Format("NSMN", recognises, read)

@@ -63,10 +63,10 @@ def read(file: File) -> list[Channel]:
     if before := _BEFORE.match(line):
         count, step = int(before[1]), _float(before[2])
     else:
-        found, stepped = _COUNT.search(line), _STEP.search(line)
-        if found is None:
+        count_match, stepped = _COUNT.search(line), _STEP.search(line)
+        if count_match is None:
             raise file.refused(at, f"{line.strip()!r} states no number of values; add NPTS=")
-        count, step = int(found[1]), _float(stepped[1]) if stepped else None
+        count, step = int(count_match[1]), _float(stepped[1]) if stepped else None
     check_stated(file, at, count)
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))

@@ -34,29 +34,29 @@ def of_size(peak: float, unit: str) -> list[str]:
     size = peak / GRAVITY
     if peak == 0.0 or PEAKS[0] <= size <= PEAKS[1]:
         return []
-    told = "less than" if size < PEAKS[0] else "more than"
+    relation = "less than" if size < PEAKS[0] else "more than"
     bound = PEAKS[0] if size < PEAKS[0] else PEAKS[1]
-    found = f"the peak is {size:.3g} g, {told} the {bound:g} g of usual records"
+    doubt = f"the peak is {size:.3g} g, {relation} the {bound:g} g of usual records"
     taken = _USUAL.get(unit)
     for other, factor in _USUAL.items():
         if other != unit and taken and PEAKS[0] <= size * factor / taken <= PEAKS[1]:
-            return [f"{found}: is its unit {other}?"]
-    return [found]
+            return [f"{doubt}: is its unit {other}?"]
+    return [doubt]
 
 
 def of_times(step: float, count: int) -> list[str]:
     """Return doubts about the step (s), and about the duration of the record."""
-    found = []
+    doubts = []
     lasts = step * (count - 1)
     if not STEPS[0] * (1.0 - 1e-9) <= step <= STEPS[1] * (1.0 + 1e-9):
         side = "less" if step < STEPS[0] else "more"
         bound = STEPS[0] if step < STEPS[0] else STEPS[1]
-        found.append(f"the step is {step:.6g} s, {side} than the {bound:g} s of usual records")
+        doubts.append(f"the step is {step:.6g} s, {side} than the {bound:g} s of usual records")
     if lasts > LONGEST:
-        found.append(f"it lasts {lasts:.6g} s, more than the {LONGEST:g} s of usual records")
-    if found:
-        found[-1] += ": are its times in s?"
-    return found
+        doubts.append(f"it lasts {lasts:.6g} s, more than the {LONGEST:g} s of usual records")
+    if doubts:
+        doubts[-1] += ": are its times in s?"
+    return doubts
 
 
 def of_end(values: NDArray[np.float64]) -> list[str]:
@@ -101,7 +101,7 @@ def _cells(line: str) -> list[str]:
 
 def _form(cell: str) -> tuple[int, int] | None:
     """How many decimals a number has, and how many digits its exponent."""
-    found = _FORM.fullmatch(cell.strip("\"'"))
-    if found is None or not any(sign.isdigit() for sign in cell):
+    match = _FORM.fullmatch(cell.strip("\"'"))
+    if match is None or not any(sign.isdigit() for sign in cell):
         return None
-    return len(found["decimals"] or ""), len(found["exponent"] or "")
+    return len(match["decimals"] or ""), len(match["exponent"] or "")

@@ -47,16 +47,16 @@ def read(file: File) -> list[Channel]:
     check_stated(file, _TEXT + 2, count)
     for _ in range(max(comments, 0)):
         if not file.line(at).startswith("|"):
-            told = (
+            message = (
                 f"the header states {comments} comments, but this line is not a comment; "
                 "begin each with '|'"
             )
-            raise file.refused(at, told)
+            raise file.refused(at, message)
         at += 1
     first = _FIRST.match(file.line(at))
     width = first.end() if first and first.end() else None
     numbers, after = file.numbers(at, count, width)
-    named = next((found for line in file.lines[:_TEXT] if (found := _NAMES.search(line))), None)
+    named = next((match for line in file.lines[:_TEXT] if (match := _NAMES.search(line))), None)
     code = file.lines[2].strip(" *")
     place = named[1] if named else ""
     step = 1.0 / rate if 0.0 < rate < _ABSENT else None

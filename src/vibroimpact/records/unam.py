@@ -47,11 +47,11 @@ def read(file: File) -> list[Channel]:
     stated = {name: _of_channels(file, name) for name in (_COUNT, _STEP, _RATE, _DURATION, _PEAK)}
     for entry in (_COUNT, _STEP):
         if len(stated[entry]) != len(names):
-            told = f"the header has {len(stated[entry])} values of {entry.split(',')[0]}, but"
-            raise file.refused(above, f"{told.replace(chr(92), '')} {len(names)} channels")
+            message = f"the header has {len(stated[entry])} values of {entry.split(',')[0]}, but"
+            raise file.refused(above, f"{message.replace(chr(92), '')} {len(names)} channels")
     unit = file.find_line(_UNIT)
     station = file.find_line(r"CLAVE DE LA ESTACION\s*:\s*(\S*)")
-    found = []
+    channels = []
     for column, name in enumerate(names):
         values = rows[:, column]
         at, count = stated[_COUNT][column]
@@ -64,8 +64,10 @@ def read(file: File) -> list[Channel]:
             name,
             where=f"line {stated[_STEP][column][0] + 1}",
         )
-        found.append(_compared(channel, {key: each[column:][:1] for key, each in stated.items()}))
-    return found
+        channels.append(
+            _compared(channel, {key: each[column:][:1] for key, each in stated.items()})
+        )
+    return channels
 
 
 _Entry = list[tuple[int, str]]
@@ -73,12 +75,12 @@ _Entry = list[tuple[int, str]]
 
 def _of_channels(file: File, name: str) -> _Entry:
     """The numbers of the channels in an entry, of which there may be several lines; their lines."""
-    found = []
+    numbers = []
     for at, line in enumerate(file.lines[:_HEADER]):
         if match := re.match(rf"{name}\s*:(.*)", line, re.IGNORECASE):
             cells = [cell.strip() for cell in match[1].split("/")[1:]]
-            found += [(at, cell) for cell in cells if _NUMBER.fullmatch(cell)]
-    return found
+            numbers += [(at, cell) for cell in cells if _NUMBER.fullmatch(cell)]
+    return numbers
 
 
 def _compared(channel: Channel, stated: dict[str, _Entry]) -> Channel:

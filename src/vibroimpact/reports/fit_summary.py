@@ -17,16 +17,16 @@ from vibroimpact.reports.identification import amplitude_of, parameter_rows
 
 def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableType, dict[str, Any]]:
     """Return the summary of fits as text, and the same facts as plain values."""
-    found, comparison = fits.own_fit, fits.comparison
+    own_fit, comparison = fits.own_fit, fits.comparison
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
-    names = [str(test) for test in found["test"].values]
-    amplitudes = {name: amplitude_of(found, name) for name in names}
-    findings = found.attrs["findings"].splitlines()
-    advice = next_test(found).attrs["findings"].splitlines()
+    names = [str(test) for test in own_fit["test"].values]
+    amplitudes = {name: amplitude_of(own_fit, name) for name in names}
+    findings = own_fit.attrs["findings"].splitlines()
+    advice = next_test(own_fit).attrs["findings"].splitlines()
     compared = [] if comparison is None else comparison.attrs["findings"].splitlines()
     lines = [*findings, *compared, *advice]
     parts: list[Any] = [Text(f"amplitude of {name}: {size}") for name, size in amplitudes.items()]
-    parts += [Text(), _table(found), Text(), *(Text(f"- {line}") for line in lines)]
+    parts += [Text(), _table(own_fit), Text(), *(Text(f"- {line}") for line in lines)]
     if fits.best_name != OWN_MODEL:
         name, fit = fits.best_name, fits.best
         parts += [Text(), Text(f"The model that fits best, {name}:"), _table(fit), Text()]
@@ -34,7 +34,7 @@ def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableTyp
     if notes:
         parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
     facts = {
-        "parameters": _values(found),
+        "parameters": _values(own_fit),
         "amplitudes": amplitudes,
         "findings": findings,
         "comparison": compared,
@@ -51,25 +51,25 @@ def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableTyp
     return Group(*parts), facts
 
 
-def _table(found: xr.Dataset) -> Table:
+def _table(fit: xr.Dataset) -> Table:
     """Return a table of the parameters of a fit, with one parameter per row."""
     table = Table(box=None, pad_edge=False, padding=(0, 2))
-    share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
+    share = f"{100.0 * float(fit.attrs['confidence']):g} % interval"
     for head in ("parameter", "value", "standard error", share):
         table.add_column(head)
-    for row in parameter_rows(found):
+    for row in parameter_rows(fit):
         table.add_row(*row[:4])
     return table
 
 
-def _values(found: xr.Dataset) -> dict[str, Any]:
+def _values(fit: xr.Dataset) -> dict[str, Any]:
     return {
         str(key): {
-            "value": float(found["fitted_value"].sel(parameter=key)),
-            "standard_error": float(found["standard_error"].sel(parameter=key)),
-            "interval": found["interval"].sel(parameter=key).values.tolist(),
+            "value": float(fit["fitted_value"].sel(parameter=key)),
+            "standard_error": float(fit["standard_error"].sel(parameter=key)),
+            "interval": fit["interval"].sel(parameter=key).values.tolist(),
         }
-        for key in found["parameter"].values
+        for key in fit["parameter"].values
     }
 
 

@@ -137,7 +137,7 @@ def fit_report(
         path = where / f"{key}.toml"
         files[label] = write_whole(path, text)
     advice = next_test(result).attrs["findings"].splitlines()
-    told = {
+    context = {
         "name": name,
         "version": __version__,
         "rows": parameter_rows(result),
@@ -153,7 +153,7 @@ def fit_report(
     }
     for label, template in (("markdown", "fit.md.jinja"), ("report", "fit.html.jinja")):
         # Names in it are those of files and columns, which may hold anything.
-        written = _each_text(told, _inert if label == "markdown" else in_one_line)
+        written = _each_text(context, _inert if label == "markdown" else in_one_line)
         text = _environment().get_template(template).render(**written)
         files[label] = write_whole(where / f"{name}{Path(template).stem[3:]}", text)
     return files
@@ -242,10 +242,10 @@ def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     if len(frequency) < 2:
         return np.array(frequency)
     count = max(200, _DENSE * len(frequency))
-    found: np.ndarray[Any, Any] = np.union1d(
+    frequencies: np.ndarray[Any, Any] = np.union1d(
         frequency, np.linspace(frequency[0], frequency[-1], count)
     )
-    return found
+    return frequencies
 
 
 def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
@@ -274,13 +274,13 @@ def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
         points = int((result["point_test"].values == test).sum())
         curves = str(one["test_kind"].values) == "curves"
         noise = float(one["noise"])
-        told = (
+        noise_text = (
             f"{100.0 * noise:.2g} % of a value"
             if curves
             else f"{noise:.3g} times the noise of each channel"
         )
         shape = "correlated (not only noise)" if float(one["residual_chance"]) < 1e-3 else "noise"
-        rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
+        rows.append((str(test), amplitude_of(result, str(test)), str(points), noise_text, shape))
     return rows
 
 

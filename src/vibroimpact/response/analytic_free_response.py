@@ -153,8 +153,8 @@ def resonance_ratio(rig: Rig) -> float:
         return peak_ratio(oscillator.damping_ratio, shaken)
     if has_no_bound(rig):
         return undamped_frequency(oscillator) / oscillator.natural_frequency
-    found = resonance(rig) / oscillator.natural_frequency
-    return found if math.isfinite(found) else 1.0
+    ratio = resonance(rig) / oscillator.natural_frequency
+    return ratio if math.isfinite(ratio) else 1.0
 
 
 def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
@@ -251,9 +251,9 @@ def _turned(shaken: Repeated, sizes: _Array) -> _Complex:
 def extremes(phasors: _Complex) -> _Array:
     """Minimum and maximum of Im Σ z_n exp(inθ), for each row: at the zeros of its slope."""
     known = np.flatnonzero(np.any(phasors != 0.0, axis=0))
-    found = np.zeros((2, len(phasors)))
+    extrema = np.zeros((2, len(phasors)))
     if not len(known):
-        return found
+        return extrema
     count = int(known[-1]) + 1
     n = np.arange(1, count + 1)
     rows = phasors[:, :count]
@@ -273,8 +273,8 @@ def extremes(phasors: _Complex) -> _Array:
         axis=1,
     )
     values = np.einsum("itn,in->it", np.exp(1j * angles[..., np.newaxis] * n), rows).imag
-    found[0], found[1] = values.min(axis=1), values.max(axis=1)
-    return found
+    extrema[0], extrema[1] = values.min(axis=1), values.max(axis=1)
+    return extrema
 
 
 def _sampled(phasors: _Complex) -> _Array:

@@ -92,8 +92,8 @@ class AnySystem(ABC):
 
     def point(self, vector: _Array) -> _Array:
         """Return the parts of a vector."""
-        found: _Array = vector[FIRST : FIRST + self.parts] * self.signs
-        return found
+        parts: _Array = vector[FIRST : FIRST + self.parts] * self.signs
+        return parts
 
     def vector(self, parts: _Array, mode: float) -> _Array:
         """Return the vector of a point's parts, in a mode."""
@@ -105,9 +105,9 @@ class AnySystem(ABC):
     def velocities(self) -> NDArray[np.bool_]:
         """Which parts are velocities."""
         places = self.places.of_point
-        found = np.zeros(places.total, dtype=bool)
-        found[places.velocity() : places.deformation(0)] = True
-        return found
+        is_velocity = np.zeros(places.total, dtype=bool)
+        is_velocity[places.velocity() : places.deformation(0)] = True
+        return is_velocity
 
     def event_doubts(
         self, events: list[_Array], undecided: bool, section: str

@@ -121,35 +121,35 @@ def _drifts(assembly: Assembly) -> list[Drift]:
     for part in numbers(assembly).links:
         _, damping, law = part.law.engine_numbers()
         dashpots[part.name] = damping if law.drag == 1.0 else 0.0
-    found = []
+    drifts = []
     for name, link in assembly.links.items():
         damping = link.law.damping if link.law.linear else dashpots[name]  # type: ignore[union-attr]
-        found.append(Drift(*assembly.ends(link), damping))
-    return found
+        drifts.append(Drift(*assembly.ends(link), damping))
+    return drifts
 
 
 def _rows(assembly: Assembly) -> list[Stop]:
     """Return the stops, then the curved parts of links."""
     of = numbers(assembly)
-    found = [_stop(part) for part in of.stops]
+    rows = [_stop(part) for part in of.stops]
     for part in of.links:
         _, damping, law = part.law.engine_numbers()
-        found += [
+        rows += [
             Stop(part.left, part.right, 0.0, behaviour=behaviour, law=row)
             for behaviour, row in link_rows(law, damping)
         ]
-    return found
+    return rows
 
 
 def link_parts(assembly: Assembly) -> list[tuple[str, bool]]:
     """Return of each curved part of a link the link's name, and whether it remembers."""
     remember = (HYSTERETIC, BILINEAR)
-    found = []
+    parts = []
     for part in numbers(assembly).links:
         _, damping, law = part.law.engine_numbers()
         rows = link_rows(law, damping)
-        found += [(part.name, behaviour in remember) for behaviour, _ in rows]
-    return found
+        parts += [(part.name, behaviour in remember) for behaviour, _ in rows]
+    return parts
 
 
 def _stop(part: PartNumbers) -> Stop:

@@ -58,8 +58,8 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
     deformations = np.maximum(vector[end : end + count], 0.0)
     memories = [vector[place] for place in memory_places(assembly).values()]
     angle = phase % (2.0 * math.pi)
-    found = [*vector[layout.PARTS : end], *deformations, *touching, *memories, angle]
-    return np.array(found) + 0.0  # no negative zeros
+    components = [*vector[layout.PARTS : end], *deformations, *touching, *memories, angle]
+    return np.array(components) + 0.0  # no negative zeros
 
 
 def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> AssemblyState:
@@ -107,23 +107,23 @@ def as_assembly_state(start: Any, assembly: Assembly) -> AssemblyState:
 
 
 def _from_components(start: xr.DataArray, assembly: Assembly) -> AssemblyState:
-    given = {str(name): float(start.sel(component=name)) for name in start["component"].values}
+    components = {str(name): float(start.sel(component=name)) for name in start["component"].values}
     wanted = component_names(assembly)
-    if sorted(given) != sorted(wanted):
-        other = next((one for one in given if one not in wanted), None)
+    if sorted(components) != sorted(wanted):
+        other = next((one for one in components if one not in wanted), None)
         what = (
             f"it has {other!r}, which this assembly has not"
             if other is not None
-            else f"it has no {next(one for one in wanted if one not in given)!r}"
+            else f"it has no {next(one for one in wanted if one not in components)!r}"
         )
         raise InputError(f"start: {what}; pass a state of the same masses and stops")
     values: dict[str, dict[str, float]] = {part: {} for part in _PARTS}
-    for name, value in given.items():
+    for name, value in components.items():
         if name != "phase":
             part, _, of = name.partition(".")
             values[part][of] = value
     touching = [name for name, value in values.pop("touching").items() if value]
-    return AssemblyState(**values, phase=given["phase"], touching=touching)
+    return AssemblyState(**values, phase=components["phase"], touching=touching)
 
 
 def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
@@ -204,9 +204,9 @@ def _on_bumper(
 ) -> tuple[bool, float]:
     """Whether a bumper of this spring and dashpot is pressed, and its deformation (m)."""
     stiffness, damping = pair
-    given = state.deformation.get(name)
+    deformation = state.deformation.get(name)
     # Stated contact makes the deformation that of the bodies, to the last digit.
-    d = max(reach, 0.0) if given is None else given
+    d = max(reach, 0.0) if deformation is None else deformation
     if reach > d + max(slack, NEAR_ZERO):
         raise InputError(
             f"start.deformation.{name}: {d:g} m, but the displacements compress this bumper by "
@@ -232,14 +232,14 @@ def _on_bumper(
 
 
 def _on_curved(
-    given: float | None, reach: float, slack: float, said: bool | None, closing: float
+    stated_speed: float | None, reach: float, slack: float, said: bool | None, closing: float
 ) -> tuple[bool, float]:
     """Whether a stop without memory is pressed, and the speed at which it was met (m/s).
 
     At its face bodies that close are about to meet it, unless the state says that they have.
     """
     touches = reach > slack or (bool(said) and reach >= -max(slack, NEAR_ZERO))
-    met = given if given is not None else closing if abs(reach) <= slack else 0.0
+    met = stated_speed if stated_speed is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
 
 

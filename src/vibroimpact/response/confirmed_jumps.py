@@ -45,7 +45,7 @@ class _Step(NamedTuple):
     first: xr.Dataset
 
 
-def confirm_jumps(rig: AnyRig, data: xr.Dataset, found: Features) -> Features:
+def confirm_jumps(rig: AnyRig, data: xr.Dataset, features: Features) -> Features:
     """Keep the jumps that are certain; move to `Features.steep` what may be a smooth step.
 
     Parameters
@@ -54,16 +54,16 @@ def confirm_jumps(rig: AnyRig, data: xr.Dataset, found: Features) -> Features:
         The rig of an oscillator that was swept.
     data
         Its sweep.
-    found
+    features
         What `resonance.features` found in it.
     """
-    ends = set[Place]().union(*(one.jumps for one in found.hysteresis))
+    ends = set[Place]().union(*(one.jumps for one in features.hysteresis))
     kinds = [
         "jump" if one[:3] in ends else _kind(rig, data, one[:3], one.settled, [(one.by, None)])
-        for one in found.jumps
+        for one in features.jumps
     ]
-    jumps, steep = _sorted(found.jumps, kinds)
-    return found._replace(jumps=jumps, steep=steep)
+    jumps, steep = _sorted(features.jumps, kinds)
+    return features._replace(jumps=jumps, steep=steep)
 
 
 def confirmed_mass_jumps(rig: AnyRig, data: xr.Dataset) -> MassJumps:
@@ -76,21 +76,21 @@ def confirmed_mass_jumps(rig: AnyRig, data: xr.Dataset) -> MassJumps:
     data
         Its sweep.
     """
-    found = mass_steps(data)
+    steps = mass_steps(data)
     kinds = [
         "jump"
-        if place in found.apart
-        else _kind(rig, data, place, one.settled, found.curves[place])
-        for place, one in found.jumps.items()
+        if place in steps.apart
+        else _kind(rig, data, place, one.settled, steps.curves[place])
+        for place, one in steps.jumps.items()
     ]
-    return MassJumps(*_sorted(found.jumps.values(), kinds))
+    return MassJumps(*_sorted(steps.jumps.values(), kinds))
 
 
 def _sorted(
-    found: Iterable[_Jump], kinds: Iterable[str]
+    candidates: Iterable[_Jump], kinds: Iterable[str]
 ) -> tuple[tuple[_Jump, ...], tuple[_Jump, ...]]:
     """Return those that are jumps, and those that are steep."""
-    pairs = list(zip(found, kinds, strict=True))
+    pairs = list(zip(candidates, kinds, strict=True))
     jumps, steep = (
         tuple(one for one, kind in pairs if kind == wanted) for wanted in ("jump", "steep")
     )

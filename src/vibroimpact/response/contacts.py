@@ -66,30 +66,30 @@ def contacts(motion: xr.Dataset, grazing: NonNegative = GRAZING) -> xr.Dataset:
         If the dataset does not hold a motion with samples, or if ``grazing`` is negative.
     """
     origin = recorded(motion, masses=True, records=True)
-    found = phases(motion, origin)
-    data = contact_log(motion, origin, found, grazing)
-    notes = [*noted(motion), *found.notes]
+    all_phases = phases(motion, origin)
+    data = contact_log(motion, origin, all_phases, grazing)
+    notes = [*noted(motion), *all_phases.notes]
     return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 
 
 def contact_log(
-    motion: xr.Dataset, origin: Origin, found: Phases, share: float = GRAZING
+    motion: xr.Dataset, origin: Origin, all_phases: Phases, share: float = GRAZING
 ) -> xr.Dataset:
     """List the contacts of a motion whose phases were measured.
 
     Parameters
     ----------
-    motion, origin, found
+    motion, origin, all_phases
         The motion, its origin, and its phases.
     share
         As ``grazing`` of `contacts`.
     """
-    stops = range(len(found.stops))
-    every_kind = [_impacts(found), *(_lasting(found, origin, stop) for stop in stops)]
+    stops = range(len(all_phases.stops))
+    every_kind = [_impacts(all_phases), *(_lasting(all_phases, origin, stop) for stop in stops)]
     chosen = _Contacts(*map(np.concatenate, zip(*every_kind, strict=True)))
     chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
     ahead, behind = (
-        (found.closing[chosen.stop] * v).sum(axis=1) for v in (chosen.arrival, chosen.parting)
+        (all_phases.closing[chosen.stop] * v).sum(axis=1) for v in (chosen.arrival, chosen.parting)
     )
     fastest = max(
         float(np.abs(motion[name].values).max(initial=0.0))
@@ -99,7 +99,7 @@ def contact_log(
     _, arrival = of_masses((), chosen.arrival)
     _, parting = of_masses((), chosen.parting)
     values = {
-        "stop": np.array(found.stops, dtype=np.str_)[chosen.stop],
+        "stop": np.array(all_phases.stops, dtype=np.str_)[chosen.stop],
         "start": chosen.begin,
         "end": chosen.begin + chosen.length,
         **_in_the_cycle(chosen, origin.shaking),
@@ -171,9 +171,9 @@ class _Contacts(NamedTuple):
         return _Contacts(**parts)
 
 
-def _lasting(found: Phases, origin: Origin, stop: int) -> _Contacts:
+def _lasting(all_phases: Phases, origin: Origin, stop: int) -> _Contacts:
     """Find the complete contacts with a bumper, or rests on a rigid stop."""
-    runs = _runs(found, origin, stop)
+    runs = _runs(all_phases, origin, stop)
     count = len(runs)
     part = np.array([i for run in runs for i in run], dtype=np.int64)
     owner = np.repeat(np.arange(count), [len(run) for run in runs])
@@ -187,8 +187,8 @@ def _lasting(found: Phases, origin: Origin, stop: int) -> _Contacts:
     def total(values: _Array) -> _Array:
         return np.bincount(owner, values[part], count).astype(np.float64)
 
-    length = found.rows[:, layout.LENGTH]
-    low, high = found.of_mass(layout.A_LEAST)[:, 0], found.of_mass(layout.A_MOST)[:, 0]
+    length = all_phases.rows[:, layout.LENGTH]
+    low, high = all_phases.of_mass(layout.A_LEAST)[:, 0], all_phases.of_mass(layout.A_MOST)[:, 0]
     peaks = np.maximum(-low, high)
     peak = most(peaks)
     # The first phase of each contact that reaches its peak.
@@ -198,37 +198,40 @@ def _lasting(found: Phases, origin: Origin, stop: int) -> _Contacts:
     earlier = np.arange(len(part)) < at[owner]
     before = np.bincount(owner, np.where(earlier, length[part], 0.0), count)
     # The event with which it begins ends the phase before it; a rest begins behind it.
-    ahead, closing = found.of_mass(layout.PARTING)[first - 1], found.of_stop(layout.CLOSING)
-    system = found.system
+    ahead, closing = (
+        all_phases.of_mass(layout.PARTING)[first - 1],
+        all_phases.of_stop(layout.CLOSING),
+    )
+    system = all_phases.system
     rests = system.by_mass and system.stop_laws[system.counted_stops[stop]].rigid
     return _Contacts(
         first.astype(np.float64),
         np.full(count, stop),
-        found.bounds[first],
-        found.angle[first],
+        all_phases.bounds[first],
+        all_phases.angle[first],
         total(length),
         ahead,
-        found.of_mass(layout.ARRIVAL)[last],
-        ahead @ found.closing[stop] if rests else closing[first - 1, stop],
-        most(found.of_stop(layout.FORCE)[:, stop]),
-        total(found.of_stop(layout.IMPULSE)[:, stop]),
-        most(found.of_stop(layout.DEPTH)[:, stop]),
-        total(found.of_stop(layout.LOSES)[:, stop]),
-        _relaxing(found, origin, stop, runs),
+        all_phases.of_mass(layout.ARRIVAL)[last],
+        ahead @ all_phases.closing[stop] if rests else closing[first - 1, stop],
+        most(all_phases.of_stop(layout.FORCE)[:, stop]),
+        total(all_phases.of_stop(layout.IMPULSE)[:, stop]),
+        most(all_phases.of_stop(layout.DEPTH)[:, stop]),
+        total(all_phases.of_stop(layout.LOSES)[:, stop]),
+        _relaxing(all_phases, origin, stop, runs),
         peak,
-        before + found.of_mass(layout.A_TIME)[part[at], 0],
+        before + all_phases.of_mass(layout.A_TIME)[part[at], 0],
     )
 
 
-def _runs(found: Phases, origin: Origin, stop: int) -> list[_Numbers]:
+def _runs(all_phases: Phases, origin: Origin, stop: int) -> list[_Numbers]:
     """Find the phases of each complete contact with a stop."""
-    touched = found.pressed[:, stop]
+    touched = all_phases.pressed[:, stop]
     begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
     ends = np.flatnonzero(touched & ~np.append(touched[1:], False))
     runs = [np.arange(i, j + 1) for i, j in zip(begins, ends, strict=True)]
     if not origin.periodic:
         # The end of the motion may lie exactly at an event.
-        cut = len(touched) > 0 and found.rows[-1, layout.KIND] == layout.NOTHING
+        cut = len(touched) > 0 and all_phases.rows[-1, layout.KIND] == layout.NOTHING
         return [run for run in runs if run[0] > 0 and not (cut and run[-1] == len(touched) - 1)]
     if len(touched) and touched[0] and touched[-1]:
         # One contact, cut in two by the section: the end of the motion is its beginning.
@@ -238,34 +241,34 @@ def _runs(found: Phases, origin: Origin, stop: int) -> list[_Numbers]:
     return runs
 
 
-def _impacts(found: Phases) -> _Contacts:
+def _impacts(all_phases: Phases) -> _Contacts:
     """Find the impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
-    at = found.impacts
-    stop = found.rows[at, layout.AT_STOP].astype(np.int64)
+    at = all_phases.impacts
+    stop = all_phases.rows[at, layout.AT_STOP].astype(np.int64)
     none = np.zeros(len(at))
     return _Contacts(
         at.astype(np.float64) + 0.5,
         stop,
-        found.bounds[at + 1],
-        found.angle[at + 1],
+        all_phases.bounds[at + 1],
+        all_phases.angle[at + 1],
         none,
-        found.of_mass(layout.ARRIVAL)[at],
-        found.of_mass(layout.PARTING)[at],
-        found.of_stop(layout.CLOSING)[at, stop],
+        all_phases.of_mass(layout.ARRIVAL)[at],
+        all_phases.of_mass(layout.PARTING)[at],
+        all_phases.of_stop(layout.CLOSING)[at, stop],
         np.full(len(at), np.nan),
-        found.rows[at, layout.STRUCK],
+        all_phases.rows[at, layout.STRUCK],
         none,
-        found.of_stop(layout.HIT)[at, stop],
+        all_phases.of_stop(layout.HIT)[at, stop],
         none,
-        found.of_mass(layout.A_EVENT)[at, 0],
+        all_phases.of_mass(layout.A_EVENT)[at, 0],
         none,
     )
 
 
-def _relaxing(found: Phases, origin: Origin, stop: int, runs: list[_Numbers]) -> _Array:
+def _relaxing(all_phases: Phases, origin: Origin, stop: int, runs: list[_Numbers]) -> _Array:
     """Compute the energy that the free bumper loses after each contact, until the next one."""
     lost = np.zeros(len(runs))
-    touched = found.pressed[:, stop]
+    touched = all_phases.pressed[:, stop]
     owners = np.full(len(touched), -1)
     for n, run in enumerate(runs):
         owners[run] = n
@@ -274,5 +277,5 @@ def _relaxing(found: Phases, origin: Origin, stop: int, runs: list[_Numbers]) ->
         before[before < 0] = np.flatnonzero(touched)[-1]
     owner = np.where(before < 0, -1, owners[before])
     known = (owner >= 0) & ~touched  # others are of a contact before the motion
-    np.add.at(lost, owner[known], found.of_stop(layout.LOSES)[known, stop])
+    np.add.at(lost, owner[known], all_phases.of_stop(layout.LOSES)[known, stop])
     return lost

@@ -88,20 +88,20 @@ def _of_measured(data: xr.Dataset) -> Swept:
     directions = tuple(d for d in known if d in data["direction"].values)
     one = data.sel(direction=list(directions))
     one = one.mean("repeat") if "repeat" in one.dims else one
-    found = {}
+    curves = {}
     for kind in _KINDS:
         name = judged(one, kind)
         if name is None:
             continue
         measured = one[name] if name in one else one[f"{kind}_max"] - one[f"{kind}_min"]
         values = np.abs(measured.transpose("direction", "frequency").values)
-        found[kind[0]] = values / (1.0 if name.startswith("eta") else np.nanmax(values))
-    if not found:
+        curves[kind[0]] = values / (1.0 if name.startswith("eta") else np.nanmax(values))
+    if not curves:
         raise InputError(
             "data: the measured curves have no excursion, maximum, minimum or η; add at least one "
             "of them, such as displacement_excursion"
         )
-    a, d = (found.get(short, next(iter(found.values()))) for short in "ad")
+    a, d = (curves.get(short, next(iter(curves.values()))) for short in "ad")
     return Swept(
         one["frequency"].values,
         directions,
@@ -157,7 +157,7 @@ def in_contact(data: xr.Dataset) -> xr.DataArray:
 
     A stop that stays pressed, as under preload, has a force, though no contact with it begins.
     """
-    found, *others = ((data[name] > 0.0).any("stop") for name in _CONTACT if name in data)
+    is_touching, *others = ((data[name] > 0.0).any("stop") for name in _CONTACT if name in data)
     for one in others:
-        found = found | one
-    return found
+        is_touching = is_touching | one
+    return is_touching

@@ -133,12 +133,12 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     mode = parted = FLIGHT
     # Seen from each side in turn: s = +1 towards the right stop, −1 towards the left one.
     for i, (side, sign) in enumerate(_SIGNS.items()):
-        stop, given = getattr(oscillator, side), state.deformation.get(side)
+        stop, value = getattr(oscillator, side), state.deformation.get(side)
         said = None if state.contact is None else state.contact in (sign, 2)
         if stop is None:
-            if given:
+            if value:
                 raise InputError(
-                    f"start.deformation.{side}: {given:g} m, but the oscillator has no {side} "
+                    f"start.deformation.{side}: {value:g} m, but the oscillator has no {side} "
                     "bumper; pass 0 or None"
                 )
             if said:
@@ -218,7 +218,7 @@ def _on_power_law(
 
     At its face a mass that moves into it is about to meet it, unless the state says that it has.
     """
-    given = state.deformation.get(_SIDES[sign])
+    stated_speed = state.deformation.get(_SIDES[sign])
     touches = reach > slack or (bool(said) and reach >= -slack)
     if said is not None and said != touches and abs(reach) > slack:
         where = "inside" if touches else "away from"
@@ -226,7 +226,7 @@ def _on_power_law(
             f"{_claim(state)}, but the mass is {abs(reach):g} m {where} the {_SIDES[sign]} stop; "
             f"pass {sign if touches else 0} or None"
         )
-    met = given if given is not None else closing if abs(reach) <= slack else 0.0
+    met = stated_speed if stated_speed is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
 
 
@@ -242,10 +242,10 @@ def _on_wall(
 
     A mass at rest there that nothing presses is let go by the engine at once.
     """
-    given = state.deformation.get(_SIDES[sign])
-    if given:
+    value = state.deformation.get(_SIDES[sign])
+    if value:
         raise InputError(
-            f"start.deformation.{_SIDES[sign]}: {given:g} m, but a rigid stop does not deform; "
+            f"start.deformation.{_SIDES[sign]}: {value:g} m, but a rigid stop does not deform; "
             "pass 0 or None"
         )
     if reach > slack:
@@ -278,8 +278,8 @@ def _on_bumper(
     by a mass at its face, unless the state says so.
     """
     stiffness, damping = law
-    given = state.deformation.get(_SIDES[sign])
-    deformation = max(reach, 0.0) if given is None else given
+    stated_depth = state.deformation.get(_SIDES[sign])
+    deformation = max(reach, 0.0) if stated_depth is None else stated_depth
     if reach > deformation + slack:
         raise InputError(
             f"start.deformation.{_SIDES[sign]}: {deformation:g} m, but a displacement of "
@@ -314,14 +314,14 @@ def _on_bumper(
 
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
-    found: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
-    deformations, angle, touching = found[..., 2:4], found[..., 4], found[..., 5:7]
+    values: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
+    deformations, angle, touching = values[..., 2:4], values[..., 4], values[..., 5:7]
     # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
     np.maximum(deformations, 0.0, out=deformations)
     angle[...] = phase % (2.0 * math.pi)
     touching[...] = touching.astype(np.int64) >> np.arange(ONE_MASS.stops) & 1
-    found += 0.0  # no negative zeros
-    return found
+    values += 0.0  # no negative zeros
+    return values
 
 
 def state_from(vector: NDArray[np.float64], phase: float) -> State:

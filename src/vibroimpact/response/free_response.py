@@ -109,8 +109,8 @@ class Flight(NamedTuple):
             (held,) = self.swept(begin, [frequency], settling)
             if held.row.status != Status.NOT_SETTLED:
                 break
-            if (found := self.orbit(held.state, frequency)) is not None:
-                return found
+            if (motion := self.orbit(held.state, frequency)) is not None:
+                return motion
             begin = held.state
         return held
 
@@ -181,9 +181,9 @@ def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
     return Flight(Rig(free, shaken), section_numbers(free, shaken.replace(phase=0.0)), level)
 
 
-def _changed(found: Held, last: Held) -> float:
+def _changed(motion: Held, last: Held) -> float:
     """How much the swing has changed, over the larger one."""
-    before, after = (float(one.row.displacement_excursion) for one in (last, found))
+    before, after = (float(one.row.displacement_excursion) for one in (last, motion))
     return abs(after - before) / max(after, before) if max(after, before) > 0.0 else 0.0
 
 
@@ -206,18 +206,18 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
 
     one = flight(rig, level)
     falling = [float(frequency) for frequency in frequencies[::-1]]
-    found = one.swept(one.rest, falling)
-    if not all(held.row.status == Status.DONE for held in found):
+    holds = one.swept(one.rest, falling)
+    if not all(held.row.status == Status.DONE for held in holds):
         # What settles slowly is not waited for.
-        found = [one.settled(one.rest, falling[0])]
+        holds = [one.settled(one.rest, falling[0])]
         for frequency in falling[1:]:
-            *_, last = one.backward(found[-1], frequency)
-            found.append(last)
-    return _excursions(found[::-1])
+            *_, last = one.backward(holds[-1], frequency)
+            holds.append(last)
+    return _excursions(holds[::-1])
 
 
-def _excursions(found: list[Held]) -> _Array:
-    rows = HoldRows(np.array([one.row.array for one in found]))
+def _excursions(holds: list[Held]) -> _Array:
+    rows = HoldRows(np.array([one.row.array for one in holds]))
     excursions = np.array(
         [rows.displacement_excursion, rows.acceleration_excursion, rows.transmitted_excursion]
     )
@@ -252,17 +252,17 @@ def _largest(rig: Rig) -> tuple[float, float, float]:
     one = flight(rig, lambda _: shaken.amplitude)
     high = _MOST
     while True:
-        found = [one.settled(one.rest, high * unit)]
-        found.extend(one.backward(found[0], _LEAST * unit))
-        curves = _excursions(found)
+        holds = [one.settled(one.rest, high * unit)]
+        holds.extend(one.backward(holds[0], _LEAST * unit))
+        curves = _excursions(holds)
         if np.all(np.isnan(curves)):
             return math.nan, math.nan, math.nan
-        top = found[int(np.nanargmax(curves[0]))].frequency
+        top = holds[int(np.nanargmax(curves[0]))].frequency
         if top < 0.98 * high * unit or high >= _WIDEST:
             break
         high *= 2.0
-    largest = _top(one, found, curves, 0)
-    fastest = largest if shaken.grows_with_frequency else _top(one, found, curves, 1)
+    largest = _top(one, holds, curves, 0)
+    fastest = largest if shaken.grows_with_frequency else _top(one, holds, curves, 1)
     swing, acceleration = (
         float(_excursions([top])[which, 0]) for which, top in enumerate((largest, fastest))
     )
@@ -271,18 +271,18 @@ def _largest(rig: Rig) -> tuple[float, float, float]:
     return swing, acceleration, largest.frequency
 
 
-def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> Held:
+def _top(one: Flight, holds: list[Held], curves: _Array, which: int) -> Held:
     """The motion of the largest excursion, between the motions beside the largest that was found.
 
     The frequencies fall. Narrowed by golden sections; where the largest stands at a fold there is
     no orbit on its far side, and the near one is closed in on.
     """
     k = int(np.nanargmax(curves[which]))
-    best, most = found[k], float(curves[which, k])
+    best, most = holds[k], float(curves[which, k])
     if not best.is_single:
         return best
-    low = found[min(k + 1, len(found) - 1)].frequency
-    high = found[max(k - 1, 0)].frequency
+    low = holds[min(k + 1, len(holds) - 1)].frequency
+    high = holds[max(k - 1, 0)].frequency
 
     def at(frequency: float) -> float:
         nonlocal best, most

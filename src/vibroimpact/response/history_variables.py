@@ -84,13 +84,13 @@ def transmitted(
     force, event_force
         Force F(t) on the mass (N) at the samples and at the events; 0 if the base moves.
     """
-    found = {
+    sources = {
         "transmitted_force": ("acceleration", force),
         "event_transmitted_force_before": ("event_acceleration_before", event_force),
         "event_transmitted_force_after": ("event_acceleration_after", event_force),
     }
     made = {}
-    for name, (acceleration, pushed) in found.items():
+    for name, (acceleration, pushed) in sources.items():
         dim, values = variables[acceleration]
         carried = -oscillator.mass * values
         carried += pushed + oscillator.force
@@ -148,21 +148,21 @@ def sampled_by_mass(
         Force at the samples on a mass (N), and the name of the mass; None if the base moves.
     """
     n, stops = len(assembly.names), len(assembly.stops)
-    found: dict[str, Any] = {
+    variables: dict[str, Any] = {
         one: (("mass", "time"), out[i * n : (i + 1) * n] + 0.0)
         for i, one in enumerate(("displacement", "velocity", "acceleration"))
     }
     for i, one in enumerate(("clearance", "contact_force", "deformation")):
         first = 3 * n + i * stops
-        found[one] = (("stop", "time"), out[first : first + stops] + 0.0)
+        variables[one] = (("stop", "time"), out[first : first + stops] + 0.0)
     # The force that would balance the masses if the base moved them as a rigid body.
     of = numbers(assembly)
-    _, acceleration = found["acceleration"]
+    _, acceleration = variables["acceleration"]
     carried = -(of.mass @ of.influence) @ acceleration + of.influence @ of.force
     if on is not None:
         carried += of.influence[assembly.names.index(on)] * force
-    found["transmitted_force"] = ("time", carried + 0.0)
-    return found
+    variables["transmitted_force"] = ("time", carried + 0.0)
+    return variables
 
 
 def listed_by_mass(rows: _Array, period: float, assembly: Assembly) -> dict[str, Any]:
@@ -171,7 +171,7 @@ def listed_by_mass(rows: _Array, period: float, assembly: Assembly) -> dict[str,
     section = np.array([one.section for one in events], dtype=np.int64)
     since = np.array([one.time for one in events], dtype=float)
     stops = list(assembly.stops)
-    found: dict[str, Any] = {
+    variables: dict[str, Any] = {
         "event_time": ("event", section * period + since),
         "event_contact": ("event", np.array([one.kind for one in events], dtype=np.int64)),
         "event_stop": ("event", np.array([stops[one.stop] for one in events], dtype=np.str_)),
@@ -180,8 +180,8 @@ def listed_by_mass(rows: _Array, period: float, assembly: Assembly) -> dict[str,
     }
     for name in ("displacement", "velocity"):
         values = np.array([getattr(one, name) for one in events]).reshape(-1, len(assembly.names))
-        found[f"event_{name}"] = (("event", "mass"), values + 0.0)
-    return found
+        variables[f"event_{name}"] = (("event", "mass"), values + 0.0)
+    return variables
 
 
 class _Event(NamedTuple):
@@ -237,13 +237,13 @@ def busiest_by_mass(rows: _Array, section: int, assembly: Assembly) -> str:
         if getattr(assembly.stops[name].law, "restitution", None) == 1.0
         and assembly.stops[name].stop.rigid
     ]
-    found = f"most of these {len(own)} events are at {words(names)}"
+    cause = f"most of these {len(own)} events are at {words(names)}"
     if lossless:
-        found += (
+        cause += (
             f"; with {words(lossless)}, bodies that are pushed together bounce without end: "
             "use a smaller value"
         )
-    return found
+    return cause
 
 
 def doubts_by_mass(rows: _Array, undecided: bool, section: str) -> list[str]:

@@ -74,14 +74,14 @@ class HoldRows:
     @property
     def displacement_excursion(self) -> _Array:
         """Largest less smallest relative displacement (m)."""
-        found: _Array = self.displacement_max - self.displacement_min
-        return found
+        excursion: _Array = self.displacement_max - self.displacement_min
+        return excursion
 
     @property
     def peak_displacement(self) -> _Array:
         """Largest relative displacement to either side (m)."""
-        found: _Array = np.maximum(np.abs(self.displacement_max), np.abs(self.displacement_min))
-        return found
+        peak: _Array = np.maximum(np.abs(self.displacement_max), np.abs(self.displacement_min))
+        return peak
 
     @property
     def acceleration_min(self) -> _Array:
@@ -96,32 +96,32 @@ class HoldRows:
     @property
     def acceleration_excursion(self) -> _Array:
         """Largest less smallest absolute acceleration (m/s²)."""
-        found: _Array = self.acceleration_max - self.acceleration_min
-        return found
+        excursion: _Array = self.acceleration_max - self.acceleration_min
+        return excursion
 
     @property
     def peak_acceleration(self) -> _Array:
         """Largest absolute acceleration, without sign (m/s²)."""
-        found: _Array = np.maximum(np.abs(self.acceleration_max), np.abs(self.acceleration_min))
-        return found
+        peak: _Array = np.maximum(np.abs(self.acceleration_max), np.abs(self.acceleration_min))
+        return peak
 
     @property
     def impacts(self) -> _Array:
         """Contacts per forcing cycle with the right and the left stop, shape (..., 2)."""
-        found: _Array = self.array[..., by_stop(steady_response.HITS)]
-        return found
+        counts: _Array = self.array[..., by_stop(steady_response.HITS)]
+        return counts
 
     @property
     def peak_force(self) -> _Array:
         """Largest forces of the right and the left stop per unit mass (m/s²), shape (..., 2)."""
-        found: _Array = self.array[..., by_stop(steady_response.FORCE)]
-        return found
+        forces: _Array = self.array[..., by_stop(steady_response.FORCE)]
+        return forces
 
     @property
     def peak_impulse(self) -> _Array:
         """Largest impulses on the right and the left rigid stop per unit mass (m/s), (..., 2)."""
-        found: _Array = self.array[..., by_stop(steady_response.IMPULSE)]
-        return found
+        impulses: _Array = self.array[..., by_stop(steady_response.IMPULSE)]
+        return impulses
 
     @property
     def transmitted_min(self) -> _Array:
@@ -136,8 +136,8 @@ class HoldRows:
     @property
     def transmitted_excursion(self) -> _Array:
         """Largest less smallest force on the base per unit mass (m/s²)."""
-        found: _Array = self.transmitted_max - self.transmitted_min
-        return found
+        excursion: _Array = self.transmitted_max - self.transmitted_min
+        return excursion
 
     @property
     def period(self) -> NDArray[np.int64]:
@@ -157,8 +157,8 @@ class HoldRows:
     @property
     def settled(self) -> NDArray[np.bool_]:
         """Whether the motion became periodic."""
-        found: NDArray[np.bool_] = (self.status == Status.DONE) & (self.period > 0)
-        return found
+        is_settled: NDArray[np.bool_] = (self.status == Status.DONE) & (self.period > 0)
+        return is_settled
 
 
 def results_of(vector: _Array) -> int:

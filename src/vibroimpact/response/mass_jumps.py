@@ -65,7 +65,7 @@ def mass_steps(data: xr.Dataset) -> MassSteps:
     swept = data.sel(direction=list(directions)).transpose("direction", "frequency", ...)
     periodic = swept["motion"].values == "periodic"
     touching = (swept["peak_force"] > 0.0).any("stop").values
-    found: dict[Place, tuple[float, MassJump]] = {}
+    steps: dict[Place, tuple[float, MassJump]] = {}
     apart: set[Place] = set()
     curves: dict[Place, list[tuple[str, str]]] = {}
     for mass in swept["mass"].values.tolist():
@@ -87,8 +87,8 @@ def mass_steps(data: xr.Dataset) -> MassSteps:
                 by = jump.by
             curves.setdefault(place, []).append((_OF_MASSES[by], mass))
             change = share_of_change(*values[by])
-            if place not in found or found[place][0] < change:
-                found[place] = (
+            if place not in steps or steps[place][0] < change:
+                steps[place] = (
                     change,
                     MassJump(
                         *place,
@@ -100,5 +100,5 @@ def mass_steps(data: xr.Dataset) -> MassSteps:
                     ),
                 )
     sign = {"forward": 1.0, "backward": -1.0}
-    order = sorted(found, key=lambda place: (place[0] != "forward", sign[place[0]] * place[1]))
-    return MassSteps({place: found[place][1] for place in order}, frozenset(apart), curves)
+    order = sorted(steps, key=lambda place: (place[0] != "forward", sign[place[0]] * place[1]))
+    return MassSteps({place: steps[place][1] for place in order}, frozenset(apart), curves)

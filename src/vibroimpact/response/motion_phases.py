@@ -143,10 +143,10 @@ class Phases(PartColumns):
             return touched
         # At a single instant a stop is touched if it pushes.
         lasts = self.rows[:, layout.LENGTH] > 0.0
-        found: NDArray[np.bool_] = touched & (
+        is_pressed: NDArray[np.bool_] = touched & (
             lasts[:, np.newaxis] | (self.of_stop(layout.FORCE) != 0.0)
         )
-        return found
+        return is_pressed
 
     @property
     def impacts(self) -> NDArray[np.int64]:
@@ -194,7 +194,7 @@ def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False)
     return Origin(system, excitation_from(parameters), cycles, periodic)
 
 
-def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
+def shaken_by(motion: xr.Dataset, parameters: dict[str, Any]) -> Record:
     """Return the record as far as the motion shows it: its last line may go on behind the motion.
 
     Raises
@@ -203,7 +203,7 @@ def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
         If samples are missing from which the record is known.
     """
     time, values = motion["time"].values, motion["base_acceleration"].values
-    step = float(given["step"])
+    step = float(parameters["step"])
     each = max(1, round(step / time[1])) if time[1] > 0.0 else 1
     if abs(time[0]) > _ON_GRID * step or (
         len(time) > each and abs(time[each] - step) > _ON_GRID * step
@@ -213,10 +213,10 @@ def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
             "base; pass the result of simulate, which may be cut at its end only"
         )
     known = values[::each]
-    if (len(time) - 1) % each and len(known) < given["samples"]:
+    if (len(time) - 1) % each and len(known) < parameters["samples"]:
         rest = time[-1] - time[(len(known) - 1) * each]
         known = np.append(known, known[-1] + (values[-1] - known[-1]) * (step / rest))
-    return Record(known[: given["samples"]], step)
+    return Record(known[: parameters["samples"]], step)
 
 
 class Course(NamedTuple):
@@ -390,8 +390,8 @@ def fourier_integrals(motion: xr.Dataset, origin: Origin, rates: _Array) -> NDAr
     ndarray, shape (3, rate, mass)
         Of displacement, velocity and absolute acceleration, impulses left out.
     """
-    found = _course(motion, origin).integrated(rates).reshape(3, 2, -1, len(rates))
-    integrals: NDArray[np.complex128] = found[:, 0] + 1j * found[:, 1]
+    parts = _course(motion, origin).integrated(rates).reshape(3, 2, -1, len(rates))
+    integrals: NDArray[np.complex128] = parts[:, 0] + 1j * parts[:, 1]
     return integrals.swapaxes(1, 2)
 
 
@@ -403,13 +403,13 @@ def doubts(motion: xr.Dataset, outcome: Status, apart: float) -> list[str]:
     size = float(np.abs(motion["displacement"].values).max())
     if outcome is Status.DONE and apart <= _DEPARTED * size:
         return []
-    told = (
+    message = (
         f"followed again from its initial state, the motion ends {apart:.3g} m away from the "
         "recorded one, because it is sensitive to rounding and was computed by another version or "
         "on another processor: the result is that of the motion followed now"
     )
-    warn_of_result(told)
-    return [told]
+    warn_of_result(message)
+    return [message]
 
 
 def parting_velocity(motion: xr.Dataset, oscillator: Oscillator) -> _Array:

@@ -148,16 +148,16 @@ class OneMass(AnySystem):
 
     def histories(self, written: Written) -> dict[str, Any]:
         """Return samples and events as variables of a dataset."""
-        found = {
+        samples = {
             **sampled(written.out, self.system),
             written.forcing: ("time", written.values),
             **listed(written.events, written.interval, self.system),
         }
         forces: tuple[_Array, ...] = ()
         if (force := written.force_on_mass) is not None:
-            _, since = found["event_cycle_time"]
+            _, since = samples["event_cycle_time"]
             forces = written.values, force.at(force.angular_frequency * since + written.phase)
-        return found | transmitted(found, self.system, *forces)
+        return samples | transmitted(samples, self.system, *forces)
 
     def measured(
         self, rows: _Array, dims: Dims, stops: NDArray[np.str_] | None = None
@@ -198,14 +198,14 @@ class OneMass(AnySystem):
         The force on the base is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration
         of the base, or what stands for a force on the mass.
         """
-        mass, found = self.system.mass, rows.copy()
+        mass, in_si = self.system.mass, rows.copy()
         of_stops = [
             phases.ONE_MASS.stop(column, number)
             for column in (phases.FORCE, phases.IMPULSE, phases.LOSES, phases.HIT)
             for number in range(phases.ONE_MASS.stops)
         ]
-        found[:, [phases.LOST, phases.STRUCK, *of_stops]] *= mass
-        found[:, phases.WORK] *= -mass
+        in_si[:, [phases.LOST, phases.STRUCK, *of_stops]] *= mass
+        in_si[:, phases.WORK] *= -mass
         carried = [phases.CARRIED_LEAST, phases.CARRIED_MOST]
-        found[:, carried] = self.system.force - mass * rows[:, carried[::-1]]
-        return found
+        in_si[:, carried] = self.system.force - mass * rows[:, carried[::-1]]
+        return in_si

@@ -162,7 +162,7 @@ def _names(part: ast.AST, histories: tuple[str, ...], parameters: tuple[str, ...
                 raise InputError(f"{name!r} is not a function that outputs accept; {use}")
             if not (len(args) == 1 or (name in ("max", "min") and len(args) > 1)):
                 raise InputError(f"{ast.unparse(part)!r}: {name} has one argument")
-            return [found for one in args for found in _names(one, histories, parameters)]
+            return [symbol for one in args for symbol in _names(one, histories, parameters)]
         case _:
             pass
     raise InputError(
@@ -187,12 +187,12 @@ def _value(part: ast.AST, time: _Value, values: Mapping[str, Any]) -> Any:
             both = _value(one, time, values), _value(other, time, values)
             return np.asarray(_OPERATORS[type(op)](*both), dtype=np.float64)
         case ast.Call(func=ast.Name(id=name), args=args):
-            given = [np.asarray(_value(one, time, values), dtype=np.float64) for one in args]
+            arguments = [np.asarray(_value(one, time, values), dtype=np.float64) for one in args]
             if name in _ELEMENTWISE:
-                return _ELEMENTWISE[name](given[0])
-            if len(given) > 1:  # the larger of two, sample by sample
-                return functools.reduce(np.maximum if name == "max" else np.minimum, given)
-            return _over_time(name, given[0], time)
+                return _ELEMENTWISE[name](arguments[0])
+            if len(arguments) > 1:  # the larger of two, sample by sample
+                return functools.reduce(np.maximum if name == "max" else np.minimum, arguments)
+            return _over_time(name, arguments[0], time)
     raise AssertionError(ast.dump(part))
 
 

@@ -110,7 +110,7 @@ class NamedOutput(NamedTuple):
         try:
             if isinstance(self.function, OutputFormula):
                 return self.function.value(motion["time"].values, _values(self, rig, motion))
-            found = self.function(motion)
+            output = self.function(motion)
         except InputError as error:
             raise InputError(f"outputs[{self.name!r}]: {error}") from None
         except Exception as error:
@@ -119,13 +119,13 @@ class NamedOutput(NamedTuple):
                 f"with {type(error).__name__}: {error}; correct the function"
             ) from error
         try:
-            number = np.asarray(found)
+            number = np.asarray(output)
             if number.ndim == 0 and number.dtype.kind in "bifu":
                 return float(number)
         except (TypeError, ValueError):
             pass
         raise InputError(
-            f"outputs[{self.name!r}]: the function returned {shown(found)}; return one number"
+            f"outputs[{self.name!r}]: the function returned {shown(output)}; return one number"
         )
 
 
@@ -144,8 +144,8 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
             f"outputs: {shown(outputs)} is not a mapping; pass names and formulas or functions, "
             "such as {'top_speed': 'max(abs(velocity))'}"
         )
-    found = []
-    for name, given in outputs.items():
+    named_outputs = []
+    for name, entry in outputs.items():
         where = f"outputs[{name!r}]"
         if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
             raise InputError(
@@ -155,7 +155,7 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
         if name in VARIABLES or name in _RESERVED or name.startswith("bifurcation_"):
             raise InputError(f"{where}: results already have a variable {name!r}; use another name")
         try:
-            one = given if isinstance(given, Output) else Output(given)
+            one = entry if isinstance(entry, Output) else Output(entry)
             function = (
                 read_output_formula(one.function, histories_of(rig), _parameters_of(rig))
                 if isinstance(one.function, str)
@@ -163,10 +163,10 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
             )
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
-        found.append(
+        named_outputs.append(
             NamedOutput(name, function, one.units, one.long_name or name.replace("_", " "))
         )
-    return tuple(found)
+    return tuple(named_outputs)
 
 
 def computed(

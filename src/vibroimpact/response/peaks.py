@@ -64,7 +64,7 @@ def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[
         If the dataset is not that of a sweep of one rig.
     """
     both = data if isinstance(data, Swept) else swept(data)
-    found: list[Peak] = []
+    maxima: list[Peak] = []
     for k, direction in enumerate(both.directions):
         for name in CURVES:
             curve: Array = getattr(both, name)[k]
@@ -77,7 +77,7 @@ def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[
             places = [i for i, height in above.items() if i == top or height > prominence * y[i]]
             high = [i for i in places if y[i] >= PRIMARY_HEIGHT * y[top]]
             primary = max((i for i in high if both.period[k, known[i]] <= 1), default=top)
-            found += [
+            maxima += [
                 Peak(
                     direction,
                     name,
@@ -89,7 +89,7 @@ def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[
                 )
                 for i in places
             ]
-    return tuple(found)
+    return tuple(maxima)
 
 
 def _prominences(y: Array, top: int) -> dict[int, float]:

@@ -120,12 +120,12 @@ def doubt_frequency(rig: Rig, field: str) -> None:
         return
     if forced <= _FAST * natural:
         return
-    told = (
+    message = (
         f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the {highest}natural "
         f"frequency of {pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
         f"{pretty(float(f'{forced / 60.0:.6g}'), FREQUENCY)}, meant?"
     )
-    warn_of_input(field, [told])
+    warn_of_input(field, [message])
 
 
 def note_unbounded(rig: Rig) -> list[str]:

@@ -88,17 +88,17 @@ class PreparedRig(NamedTuple):
         reached : ndarray
             The state at the end.
         """
-        found: list[tuple[HoldRows, _Array]] = []
+        pairs: list[tuple[HoldRows, _Array]] = []
         shaking = self.shaking
 
         def hold_it(tally: Tally) -> None:
             sizes, places = np.array([shaking.amplitude]), np.array([shaking.frequency])
-            found.append(
+            pairs.append(
                 sweep_holds(self.vector, sizes, places, shaking.phase, state, settling, tally)
             )
 
         watched(hold_it, settling.max_cycles, progress, CYCLES)
-        ((rows, reached),) = found
+        ((rows, reached),) = pairs
         return rows[0], reached[0]
 
     def sections(

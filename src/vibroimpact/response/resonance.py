@@ -122,12 +122,12 @@ class Hysteresis(NamedTuple):
     @property
     def jumps(self) -> set[Place]:
         """Where its motions end, between two frequencies in the order of each direction."""
-        found: set[Place] = set()
+        places: set[Place] = set()
         if self.above is not None:
-            found.add(("forward", self.high, self.above))
+            places.add(("forward", self.high, self.above))
         if self.below is not None:
-            found.add(("backward", self.low, self.below))
-        return found
+            places.add(("backward", self.low, self.below))
+        return places
 
 
 class Range(NamedTuple):
@@ -242,10 +242,10 @@ def hysteresis(
     sides = np.sign(a), np.sign(d)
     turned = (sides[0][1:] != sides[0][:-1]) & (sides[1][1:] != sides[1][:-1])
 
-    found = []
+    loops = []
     for first, last in runs(differ, turned):
         right = a[first : last + 1].sum() > 0.0
-        found.append(
+        loops.append(
             Hysteresis(
                 "right" if right else "left",
                 float(frequency[first]),
@@ -255,7 +255,7 @@ def hysteresis(
                 bool(settled[first : last + 1].any()),
             )
         )
-    return tuple(found)
+    return tuple(loops)
 
 
 def jumps(
@@ -287,8 +287,8 @@ def jumps(
         If the dataset is not that of a sweep of one rig.
     """
     both = _arrays(data)
-    found = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
-    return jumps_beside(found, both, apart, unsettled_apart, step)
+    loops = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
+    return jumps_beside(loops, both, apart, unsettled_apart, step)
 
 
 def ranges(data: xr.Dataset | Swept, where: xr.DataArray | Flags) -> tuple[Range, ...]:
@@ -326,15 +326,15 @@ def jumps_beside(
         direction: _breaks(both, k, apart, unsettled_apart, step)
         for k, direction in enumerate(both.directions)
     }
-    for found in apart_by:
-        if found.above is not None:
-            places["forward"][found.high, found.above] = found.settled, "eta_a"
-        if found.below is not None:
-            places["backward"][found.below, found.low] = found.settled, "eta_a"
+    for loop in apart_by:
+        if loop.above is not None:
+            places["forward"][loop.high, loop.above] = loop.settled, "eta_a"
+        if loop.below is not None:
+            places["backward"][loop.below, loop.low] = loop.settled, "eta_a"
     return tuple(
         _jump(both, direction, *(pair if direction == "forward" else pair[::-1]), *shown)
-        for direction, found_there in places.items()
-        for pair, shown in sorted(found_there.items(), reverse=direction == "backward")
+        for direction, breaks in places.items()
+        for pair, shown in sorted(breaks.items(), reverse=direction == "backward")
     )
 
 
@@ -378,7 +378,7 @@ def _breaks(
         The two frequencies of each, rising; whether a motion settled on both its sides; and the
         curve.
     """
-    found: dict[tuple[float, float], tuple[bool, Curve]] = {}
+    breaks: dict[tuple[float, float], tuple[bool, Curve]] = {}
     for name in CURVES:
         curve: Array = getattr(both, name)[k]
         known = np.isfinite(curve).nonzero()[0]
@@ -395,8 +395,8 @@ def _breaks(
                 # but the one before it will.
                 evident = any(settled[:2]) and any(settled[2:])
                 place = float(frequency[i + 1]), float(frequency[i + 2])
-                found.setdefault(place, (evident, name))
-    return found
+                breaks.setdefault(place, (evident, name))
+    return breaks
 
 
 def _jump(

@@ -84,8 +84,8 @@ def response_spectrum(
     omega = math.tau / np.tile(period.ravel()[moving], ratio.size)
     zeta = np.repeat(ratio.ravel(), int(moving.sum()))
     values = np.zeros((len(_turned(components)), 3, ratio.size, period.size))
-    found = _found(components, omega, zeta, progress)
-    values[..., moving] = found.reshape(*found.shape[:2], ratio.size, -1)
+    maxima = _found(components, omega, zeta, progress)
+    values[..., moving] = maxima.reshape(*maxima.shape[:2], ratio.size, -1)
     peaks = np.array([one.peak for one in _turned(components)])
     values[:, spectra.ACCELERATION][..., ~moving] = peaks[:, np.newaxis, np.newaxis]
     if len(components) == 2:
@@ -177,13 +177,13 @@ def _components(record: Any) -> tuple[Record, ...]:
             "record: a mapping of records; call response_spectrum for each of them, such as "
             "{name: response_spectrum(one, periods) for name, one in records.items()}"
         )
-    given = tuple(record) if isinstance(record, list | tuple) else (record,)
-    if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
+    records = tuple(record) if isinstance(record, list | tuple) else (record,)
+    if not 1 <= len(records) <= 2 or not all(isinstance(one, Record) for one in records):
         raise InputError(
             f"record: {shown(record)} is not a Record; pass one Record, or two of them for "
             "perpendicular components"
         )
-    first, last = given[0], given[-1]
+    first, last = records[0], records[-1]
     if first.step != last.step:
         raise InputError(
             f"record: the two components have time steps of {first.step:g} s and {last.step:g} s; "
@@ -195,22 +195,22 @@ def _components(record: Any) -> tuple[Record, ...]:
             f"record: the two components have {counts[0]} and {counts[1]} samples; shorten the "
             "longer one with Record.cut"
         )
-    return given
+    return records
 
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """Read one number or a list of numbers that are 0 or at least `least`."""
     listed = check_list(values, field) if is_list(values) else values
     try:
-        found = np.asarray(listed, dtype=np.float64)
+        numbers = np.asarray(listed, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{field}: {shown(values)}; pass {accepted}") from None
-    if found.ndim > 1 or found.size == 0:
+    if numbers.ndim > 1 or numbers.size == 0:
         raise InputError(
             f"{field}: {shown(values)}; pass one value, or a list of at least one value (no lists "
             "in this list)"
         )
-    for one in found.ravel():
+    for one in numbers.ravel():
         if not (one == 0.0 or least <= one < below):
             raise InputError(f"{field}: {one:g}; pass {accepted}")
-    return found
+    return numbers

@@ -187,17 +187,17 @@ def _history(
     first = states.components(vector, phase)
     run = WrittenMotion(states, shaking, length, phase, vector, samples, max_events)
     finished = run.follow(progress)
-    told = states.ended(run.status, run.out, vector)
+    status = states.ended(run.status, run.out, vector)
     if run.status is not Status.DONE:
         run.cut(finished)
         ends = finished * (record.step if record else 1.0)
         where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
         too_many = run.status is Status.TOO_MANY_EVENTS
         cause = states.cause_of_events(run.events, finished) if too_many else ""
-        advice = f"{told.advice}; here, {cause}" if cause else told.advice
+        advice = f"{status.advice}; here, {cause}" if cause else status.advice
         warn_of_result(f"simulate stopped {where}: {advice}")
-    elif told is not run.status:
-        warn_of_result(f"simulate: {told.advice}")
+    elif status is not run.status:
+        warn_of_result(f"simulate: {status.advice}")
     reached = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)
     variables: dict[str, Any] = {
         "final_state": ("component", states.components(run.state, reached))
@@ -213,9 +213,9 @@ def _history(
         variables["initial_state"] = ("component", first)
         coordinates |= part_names(system, "mass", "stop")
         variables |= _variables(run, states, ends, coordinates)
-    variables["status"] = int(told)
+    variables["status"] = int(status)
     data = xr.Dataset(variables, coordinates)
-    data.attrs["message"] = told.advice
+    data.attrs["message"] = status.advice
     parameters = system_parameters(system)
     if isinstance(shaking, Record):
         parameters |= {"record": record_parameters(shaking), "tail": length}
@@ -239,12 +239,12 @@ def _variables(
         coordinates["time"] = cycle / shaking.frequency
         coordinates["cycle"] = ("time", cycle)
         name, values = _shaking(shaking, run.phase, cycle, samples)
-    found = states.histories(
+    variables = states.histories(
         Written(run.out, run.events, run.interval, shaking, run.phase, name, values)
     )
     if isinstance(shaking, Record):  # a record has steps, not cycles
-        found = {name: one for name, one in found.items() if "cycle" not in name}
-    return found
+        variables = {name: one for name, one in variables.items() if "cycle" not in name}
+    return variables
 
 
 def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float64]:

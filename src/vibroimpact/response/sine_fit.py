@@ -44,13 +44,13 @@ def fitted_sine(time: _Array, values: _Array, frequency: float | None = None) ->
         line = np.abs(np.fft.rfft((np.interp(even, t, y) - y.mean()) * np.hanning(len(t))))
         top = int(np.argmax(line[1:])) + 1
         width = 1.0 / (t[-1] - t[0])
-        found = minimize_scalar(
+        optimum = minimize_scalar(
             lambda f: _linear(t, y, f)[1],
             bounds=(max(top - 1.5, 0.25) * width, (top + 1.5) * width),
             method="bounded",
             options={"xatol": 1e-10 * width},
         )
-        frequency = float(found.x)
+        frequency = float(optimum.x)
     (mean, sine, cosine), left = _linear(t, y, frequency)
     size = float(np.hypot(sine, cosine))
     if size == 0.0:
@@ -72,8 +72,8 @@ def forcing_sine(
 ) -> Sine | None:
     """The sine that shakes a measured motion: that of the base, or the mass's own highest line."""
     for signal in (base, moved):
-        if signal is not None and (found := fitted_sine(time, signal, frequency)) is not None:
-            return found
+        if signal is not None and (sine := fitted_sine(time, signal, frequency)) is not None:
+            return sine
     return None
 
 
@@ -86,5 +86,5 @@ def slope(time: _Array, values: _Array, sine: Sine | None) -> _Array:
     even = np.allclose(np.diff(time), step, rtol=0.05)
     if not even or not 5 <= width < len(values):
         return np.gradient(values, time)
-    found: _Array = savgol_filter(values, width, 3, deriv=1, delta=step)
-    return found
+    derivative: _Array = savgol_filter(values, width, 3, deriv=1, delta=step)
+    return derivative

@@ -89,8 +89,8 @@ def _exact(motion: xr.Dataset, origin: Origin, order: NDArray[np.float64]) -> li
     """Compute complex amplitudes of u, u̇ and ü + A_t at the given orders."""
     rates = order * origin.repeated.angular_frequency
     scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.repeated.period)
-    found = fourier_integrals(motion, origin, rates) * scale[:, np.newaxis]
-    _, amplitudes = engine_system(origin.system).of_masses((), found)
+    integrals = fourier_integrals(motion, origin, rates) * scale[:, np.newaxis]
+    _, amplitudes = engine_system(origin.system).of_masses((), integrals)
     return [*amplitudes]
 
 

@@ -55,12 +55,12 @@ class StoredEnergy:
 
     def of_pressed(self, state: _Array) -> _Array:
         """Return the energy (J) of each stop without memory that is touched, 0 of the others."""
-        found, mode = np.zeros(len(self._springs)), int(state[layout.STATE_MODE])
+        energies, mode = np.zeros(len(self._springs)), int(state[layout.STATE_MODE])
         u = state[layout.PARTS :][: len(self._mass)]
         for f, law in self._pressed.items():
             if mode >> f & 1:
-                found[f] = law.stored_energy(max(float(self._closing[f] @ u) - law.gap, 0.0))
-        return found
+                energies[f] = law.stored_energy(max(float(self._closing[f] @ u) - law.gap, 0.0))
+        return energies
 
 
 def _loses_elsewhere(law: Any) -> bool:

@@ -220,7 +220,7 @@ def sweeps(
         progress=progress and (lambda done, _: progress(done, total)),
     )
     shape = (len(pairs), len(directions), len(grid))
-    results = np.array([found for found, _ in done]).reshape(*shape, -1)
+    results = np.array([hold_rows for hold_rows, _ in done]).reshape(*shape, -1)
     states = np.array([reached for _, reached in done]).reshape(*shape, -1)
     del done  # as large as both
     about_sweeps = {
@@ -269,24 +269,24 @@ def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:
     InputError
         If there is none, or one is invalid.
     """
-    found = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
-    for name, rig in found.items():
-        as_periodic(rig.shaking, "shaking" if len(found) == 1 else f"rigs[{name}].shaking")
-    return found
+    named_rigs = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
+    for name, rig in named_rigs.items():
+        as_periodic(rig.shaking, "shaking" if len(named_rigs) == 1 else f"rigs[{name}].shaking")
+    return named_rigs
 
 
 def _directions(directions: Sequence[str]) -> tuple[str, ...]:
-    given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
-    for direction in given:
+    names = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
+    for direction in names:
         if not isinstance(direction, str) or direction not in DIRECTIONS:
             raise InputError(
                 f"directions: {shown(direction)}; pass 'forward', 'backward' or a list of both"
             )
-    if not given or len(set(given)) < len(given):
+    if not names or len(set(names)) < len(names):
         raise InputError(
-            f"directions: {list(given)!r}; pass 'forward', 'backward' or both, each only once"
+            f"directions: {list(names)!r}; pass 'forward', 'backward' or both, each only once"
         )
-    return given
+    return names
 
 
 def advice(data: xr.Dataset) -> list[str]:

@@ -103,7 +103,7 @@ def rows(
         As `sweep_holds` gives them, but by rising frequency.
     """
     order = slice(None, None, 1 if direction == "forward" else -1)
-    found, reached = sweep_holds(
+    hold_rows, reached = sweep_holds(
         one.rig,
         one.levels[order],
         one.frequencies[order],
@@ -113,4 +113,4 @@ def rows(
         tally,
         transient,
     )
-    return found.array[order], reached[order]
+    return hold_rows.array[order], reached[order]

@@ -41,14 +41,14 @@ def sweep_dataset(
     dims = ("rig", "direction", "frequency")
     first = systems[0]
     names = shared_part_names(systems)
-    found = [
+    by_rig = [
         engine_system(one).measured(part, dims[1:], stops=names["stop"])
         for one, part in zip(systems, results, strict=True)
     ]
     variables: dict[str, Any] = {}
-    for name, (of, _) in list(found[0].items()):
+    for name, (of, _) in list(by_rig[0].items()):
         # What is stacked is not kept a second time.
-        variables[name] = (("rig", *of), np.stack([one.pop(name)[1] for one in found]))
+        variables[name] = (("rig", *of), np.stack([one.pop(name)[1] for one in by_rig]))
     rows, at_end = HoldRows(results), engine_system(first)
     if not first.by_mass:
         variables |= _beside_free_flight(systems, plans, rows, variables)

@@ -56,11 +56,11 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         If the dataset does not hold a motion with samples.
     """
     origin = recorded(motion, masses=True, records=True)
-    found = phases(motion, origin)
+    all_phases = phases(motion, origin)
     parts = part_names(origin.system, "mass", "link", "stop") if origin.system.by_mass else {}
-    data = xr.Dataset({**extremes(found), **energies(found)}, parts)
+    data = xr.Dataset({**extremes(all_phases), **energies(all_phases)}, parts)
     begins = [] if "mass" in motion.dims else _begins_with_an_impact(motion)
-    notes = [*noted(motion), *begins, *found.notes, *energy_notes(origin.system)]
+    notes = [*noted(motion), *begins, *all_phases.notes, *energy_notes(origin.system)]
     return describe(data, "vibroimpact.totals", motion_parameters(motion), notes)
 
 
@@ -93,55 +93,58 @@ def energy_notes(system: System) -> list[str]:
     ]
 
 
-def extremes(found: Phases) -> dict[str, Any]:
+def extremes(all_phases: Phases) -> dict[str, Any]:
     """Return the extremes of a motion, of an assembly also forces, impulses and impacts by stop."""
 
     def spread(name: str, low: _Array, high: _Array, *dims: str) -> dict[str, Any]:
         return range_variables(name, low.min(axis=0), high.max(axis=0), dims)
 
-    rows = found.rows
-    low, high = found.of_mass(layout.U_LEAST), found.of_mass(layout.U_MOST)
+    rows = all_phases.rows
+    low, high = all_phases.of_mass(layout.U_LEAST), all_phases.of_mass(layout.U_MOST)
     values = {
         **spread("displacement", low, high, "mass"),
         **spread(
-            "acceleration", found.of_mass(layout.A_LEAST), found.of_mass(layout.A_MOST), "mass"
+            "acceleration",
+            all_phases.of_mass(layout.A_LEAST),
+            all_phases.of_mass(layout.A_MOST),
+            "mass",
         ),
         **spread("transmitted_force", rows[:, layout.CARRIED_LEAST], rows[:, layout.CARRIED_MOST]),
         "eccentricity": ("mass", 0.5 * (low.min(axis=0) + high.max(axis=0))),
     }
-    system = found.system
+    system = all_phases.system
     if not system.by_mass:
         return {
             name: float(np.squeeze(value))
             for name, (_, value) in values.items()
             if not name.startswith("peak_")
         }
-    at, count = found.impacts, len(found.stops)
+    at, count = all_phases.impacts, len(all_phases.stops)
     stop = rows[at, layout.AT_STOP].astype(np.int64)
     struck = np.bincount(stop, rows[at, layout.STRUCK], count)
-    pressed = found.pressed
+    pressed = all_phases.pressed
     begun = (pressed[1:] & ~pressed[:-1]).sum(axis=0)
     rigid = np.array([one.rigid for one in system.stop_laws.values()], dtype=bool)
-    hit, force = np.bincount(stop, minlength=count), found.of_stop(layout.FORCE).max(axis=0)
-    drift = found.of_drift(layout.D_LEAST), found.of_drift(layout.D_MOST)
+    hit, force = np.bincount(stop, minlength=count), all_phases.of_stop(layout.FORCE).max(axis=0)
+    drift = all_phases.of_drift(layout.D_LEAST), all_phases.of_drift(layout.D_MOST)
     return {
         **values,
         **spread("drift", *drift, "link"),
         "peak_force": ("stop", np.where(struck > 0.0, np.inf, force)),
         "impact_count": ("stop", np.where(rigid, hit, begun)),
-        "impulse": ("stop", found.of_stop(layout.IMPULSE).sum(axis=0) + struck),
+        "impulse": ("stop", all_phases.of_stop(layout.IMPULSE).sum(axis=0) + struck),
     }
 
 
-def energies(found: Phases) -> dict[str, Any]:
+def energies(all_phases: Phases) -> dict[str, Any]:
     """Return the energies (J) of a motion; of an assembly by link and stop, and in balance.
 
     The loss of one link beyond that of its dashpot follows from the balance; those of several do
     not (NaN).
     """
-    system, supplied = found.system, float(found.rows[:, layout.WORK].sum())
-    lost = float(found.rows[:, layout.LOST].sum())
-    stops = (found.of_stop(layout.LOSES) + found.of_stop(layout.HIT)).sum(axis=0)
+    system, supplied = all_phases.system, float(all_phases.rows[:, layout.WORK].sum())
+    lost = float(all_phases.rows[:, layout.LOST].sum())
+    stops = (all_phases.of_stop(layout.LOSES) + all_phases.of_stop(layout.HIT)).sum(axis=0)
     if not system.by_mass:
         return {
             "total_supplied": supplied,
@@ -149,10 +152,10 @@ def energies(found: Phases) -> dict[str, Any]:
             "total_bumpers": float(stops.sum()),
         }
     energy = StoredEnergy(several_masses_only(system))
-    links = found.of_drift(layout.D_LOST).sum(axis=0)
+    links = all_phases.of_drift(layout.D_LOST).sum(axis=0)
     # The engine counts what a stop without memory takes up while it is touched, lost or not.
-    stops = stops - (energy.of_pressed(found.final) - energy.of_pressed(found.begin))
-    stored, damping = energy.of(found.final) - energy.of(found.begin), lost - links.sum()
+    stops = stops - (energy.of_pressed(all_phases.final) - energy.of_pressed(all_phases.begin))
+    stored, damping = energy.of(all_phases.final) - energy.of(all_phases.begin), lost - links.sum()
     rest = supplied - lost - stops.sum() - stored
     links[energy.lossy] += rest if energy.lossy.sum() == 1 else np.nan
     return {

@@ -91,11 +91,11 @@ def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[A
     InputError
         If there are not two parameters that go together, or if a value or a spacing is invalid.
     """
-    given = entries(vary, 2, 2)
-    names = [_name(name, "vary") for name in given]
+    grids = entries(vary, 2, 2)
+    names = [_name(name, "vary") for name in grids]
     if names[0] == names[1]:
         raise InputError(
-            f"vary: {' and '.join(map(repr, given))} are the same parameter; replace one of the two"
+            f"vary: {' and '.join(map(repr, grids))} are the same parameter; replace one of the two"
         )
     spaced = check_mapping({} if spacing is None else spacing, "spacing", _SPACING)
     kinds: dict[str, str] = {}
@@ -108,7 +108,7 @@ def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[A
         kinds[known] = check_name(kind, ("log", "linear"), f"spacing[{name!r}]")
     x, y = (
         _axis(name, values, field_of(written), kinds.get(name), of)
-        for name, (written, values) in zip(names, given.items(), strict=True)
+        for name, (written, values) in zip(names, grids.items(), strict=True)
     )
     check_pair(x, y)
     return x, y

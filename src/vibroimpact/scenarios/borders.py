@@ -97,13 +97,13 @@ def jump_border(
         points = [
             (cusp, at) for cusp, (_, at) in zip(cusps, nodes, strict=True) if cusp is not None
         ]
-    found = xr.Dataset(
+    border = xr.Dataset(
         {
             name: ("border_point", [p[k] for p in points])
             for k, name in enumerate((along, y if along == x else x) if along else (x, y))
         }
     )
-    return describe(found, "vibroimpact.scenarios.borders.jump_border", settings)
+    return describe(border, "vibroimpact.scenarios.borders.jump_border", settings)
 
 
 def _first_nodes(settings: dict[str, Any]) -> int:
@@ -116,15 +116,15 @@ def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float
     scenarios = data["scenario"].transpose(other, along).values
     jumping = np.isin(scenarios, [Scenario.S2, Scenario.S3])
     smooth = np.isin(scenarios, [Scenario.S6, Scenario.UNCLASSIFIED])
-    found = []
+    nodes = []
     for row, at in enumerate(data[other].values):
         values = data[along].values
         for i in range(len(values)):
             neighbours = [k for k in (i - 1, i + 1) if 0 <= k < len(values)]
             if jumping[row, i] and any(smooth[row, k] for k in neighbours):
-                found.append((float(values[i]), float(at)))
+                nodes.append((float(values[i]), float(at)))
                 break
-    return found
+    return nodes
 
 
 def _cusp_beside(

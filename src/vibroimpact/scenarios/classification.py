@@ -9,7 +9,7 @@ from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.thresholds import Thresholds
 
 
-def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
+def scenario(evidence: Evidence, thresholds: Thresholds) -> Scenario:
     """Name the scenario; the first that fits, in this order.
 
     0. Unclassified if too little is known, or if the growth of η_a with the frequency hides the
@@ -24,68 +24,71 @@ def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     7. Otherwise unclassified; so, too, where the primary resonance itself is not regular.
     """
     secondary = [
-        peak for peak in found.secondary if peak.prominence >= thresholds.prominence * peak.value
+        peak for peak in evidence.secondary if peak.prominence >= thresholds.prominence * peak.value
     ]
-    extent = found.extent(thresholds.prominence)
-    smooth = not (found.jumping or extent or secondary) and found.primary_regular
-    if math.isinf(found.gap_ratio):  # there is no bumper
+    extent = evidence.extent(thresholds.prominence)
+    smooth = not (evidence.jumping or extent or secondary) and evidence.primary_regular
+    if math.isinf(evidence.gap_ratio):  # there is no bumper
         return Scenario.S0
-    if not found.known or found.hidden_by is not None:
+    if not evidence.known or evidence.hidden_by is not None:
         return Scenario.UNCLASSIFIED
-    if not found.within:
+    if not evidence.within:
         return Scenario.S4 if extent >= thresholds.extent else Scenario.UNCLASSIFIED
-    if found.contact is None:
+    if evidence.contact is None:
         return Scenario.S0
-    if found.attached:
+    if evidence.attached:
         if smooth:
             return Scenario.S5
-    elif 1.0 - found.gap_ratio <= thresholds.touch and found.penetration <= thresholds.deformation:
+    elif (
+        1.0 - evidence.gap_ratio <= thresholds.touch
+        and evidence.penetration <= thresholds.deformation
+    ):
         return Scenario.S1
     if extent >= thresholds.extent:
         return Scenario.S4
-    if not found.primary_regular:
+    if not evidence.primary_regular:
         return Scenario.UNCLASSIFIED
-    if primary_jumps(found):
+    if primary_jumps(evidence):
         return Scenario.S3 if secondary else Scenario.S2
-    if smooth and found.resonance >= 1.0 and not found.attached:
+    if smooth and evidence.resonance >= 1.0 and not evidence.attached:
         return Scenario.S6
     return Scenario.UNCLASSIFIED
 
 
-def primary_jumps(found: Evidence) -> bool:
+def primary_jumps(evidence: Evidence) -> bool:
     """Whether the primary resonance ends in a jump: right hysteresis, however narrow.
 
     One that hides between two neighbouring frequencies shows in the branch, which turns back
     above the resonance; where no branch was followed, as a jump of both directions at one place.
     """
-    if found.right:
+    if evidence.right:
         return True
-    if found.folds is not None:
-        return any(fold > found.top for fold in found.folds)
+    if evidence.folds is not None:
+        return any(fold > evidence.top for fold in evidence.folds)
     down = {
         jump.direction
-        for jump in found.jumps
+        for jump in evidence.jumps
         if jump.settled
-        and jump.frequency >= found.top
+        and jump.frequency >= evidence.top
         and (jump.direction == "forward") == (not jump.upward)
     }
     return len(down) == 2
 
 
-def alternatives(found: Evidence, thresholds: Thresholds) -> dict[tuple[str, float], Scenario]:
+def alternatives(evidence: Evidence, thresholds: Thresholds) -> dict[tuple[str, float], Scenario]:
     """The variations of the thresholds that give another scenario, by threshold and its value."""
-    named = scenario(found, thresholds)
+    named = scenario(evidence, thresholds)
     return {
         (name, getattr(other, name)): there
         for name, other in thresholds.variations()
-        if (there := scenario(found, other)) is not named
+        if (there := scenario(evidence, other)) is not named
     }
 
 
-def confidence(found: Evidence, thresholds: Thresholds) -> float:
+def confidence(evidence: Evidence, thresholds: Thresholds) -> float:
     """Share of the threshold's variations (each halved, each doubled) with the same scenario.
 
     1 means that no threshold matters by a factor of two; it says nothing of what lies outside
     the frequencies that were swept.
     """
-    return 1.0 - len(alternatives(found, thresholds)) / len(list(thresholds.variations()))
+    return 1.0 - len(alternatives(evidence, thresholds)) / len(list(thresholds.variations()))

@@ -127,7 +127,7 @@ def classify_scenario(
     InputError
         If a value is invalid.
     """
-    found = classify(
+    classification = classify(
         rig,
         frequencies,
         thresholds=thresholds,
@@ -135,10 +135,10 @@ def classify_scenario(
         threads=threads,
         progress=progress,
     )
-    features, used = found.features, found.thresholds
-    data = found.sweep.assign(
+    features, used = classification.features, classification.thresholds
+    data = classification.sweep.assign(
         {
-            "scenario": np.int8(found.named),
+            "scenario": np.int8(classification.named),
             **{name: get(features, used) for name, get in VALUES.items()},
             **{name: np.int16(count(features, used)) for name, count in COUNTS.items()},
             "fold_frequency": ("fold", np.array(features.folds or (), dtype=np.float64)),
@@ -147,12 +147,12 @@ def classify_scenario(
     data["scenario"].attrs |= FLAGS
     data.attrs |= {
         "created_by": "vibroimpact.classify_scenario",
-        "label": found.scenario,
-        "meaning": found.named.meaning,
-        "evidence": found.evidence,
+        "label": classification.scenario,
+        "meaning": classification.named.meaning,
+        "evidence": classification.evidence,
         "alternatives": "; ".join(
             f"{other} if {threshold} were {value:g}"
-            for (threshold, value), other in found.alternatives.items()
+            for (threshold, value), other in classification.alternatives.items()
         ),
     }
     return describe(data, data.attrs["created_by"])
@@ -180,7 +180,7 @@ def classify(
             f"frequencies: {data.sizes['frequency']} values are too few for a resonance curve; "
             f"pass at least {LEAST} frequencies"
         )
-    found = evidence(rig, data, 0.5 * used.prominence)
+    features = evidence(rig, data, 0.5 * used.prominence)
     total = data.sizes["frequency"] * data.sizes["direction"]
 
     def check() -> None:
@@ -188,17 +188,17 @@ def classify(
             progress(total, total)  # which may raise, where the answer is not wanted any more
 
     ended = holds(data)
-    found = with_kinds(found, rig, ended, check=check)
+    features = with_kinds(features, rig, ended, check=check)
     check()
-    found = with_folds(found, rig, ended)
+    features = with_folds(features, rig, ended)
     with written_for(rig):
-        words = in_words(found, used)
+        words = in_words(features, used)
     return Classification(
-        scenario(found, used),
-        confidence(found, used),
+        scenario(features, used),
+        confidence(features, used),
         words,
-        {varied: other.label for varied, other in alternatives(found, used).items()},
-        found,
+        {varied: other.label for varied, other in alternatives(features, used).items()},
+        features,
         used,
         data,
     )

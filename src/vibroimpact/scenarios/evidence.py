@@ -125,22 +125,22 @@ class Evidence(NamedTuple):
     @property
     def irregular_once(self) -> tuple[Irregular, ...]:
         """Ranges that are not regular, those of the two directions that overlap once."""
-        told: list[Irregular] = []
+        ranges: list[Irregular] = []
         for item in self.irregular:
-            if not any(item.low <= other.high and other.low <= item.high for other in told):
-                told.append(item)
-        return tuple(sorted(told, key=lambda item: item.low))
+            if not any(item.low <= other.high and other.low <= item.high for other in ranges):
+                ranges.append(item)
+        return tuple(sorted(ranges, key=lambda item: item.low))
 
     def secondary_resonances(self, prominence: float) -> list[tuple[float, float]]:
         """Frequency (Hz) and prominence (over height) of the regular ones, each once."""
-        told: list[tuple[float, float]] = []
+        resonances: list[tuple[float, float]] = []
         for peak in sorted(self.secondary, key=lambda p: -p.prominence):
             share = peak.prominence / peak.value
             if share >= prominence and all(
-                abs(peak.frequency - known) > SAME * known for known, _ in told
+                abs(peak.frequency - known) > SAME * known for known, _ in resonances
             ):
-                told.append((peak.frequency, share))
-        return sorted(told)
+                resonances.append((peak.frequency, share))
+        return sorted(resonances)
 
     def extent(self, prominence: float) -> float:
         """Width of all left hystereses and non-regular resonances together, over f0.
@@ -181,8 +181,8 @@ def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
     InputError
         If the dataset is not that of the sweep of one rig in both directions.
     """
-    (found,) = each_evidence([rig], as_rigs(data), prominence)
-    return found
+    (features,) = each_evidence([rig], as_rigs(data), prominence)
+    return features
 
 
 def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> Iterator[Evidence]:
@@ -202,14 +202,14 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
     gaps = clearances_at_rest(oscillator)
     touched = np.logical_or.reduce(both.touching).nonzero()[0]
     apart = hysteresis(both)
-    found = peaks(both, prominence=prominence)
+    all_peaks = peaks(both, prominence=prominence)
     irregular = ~both.settled | (both.period != 1) | uneven
     begins = onset(rig, both, irregular, apart, prominence)
-    primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
-    swings = {p.direction: p for p in found if p.primary and p.curve == "eta_d"}
+    primary = {p.direction: p for p in all_peaks if p.primary and p.curve == "eta_a"}
+    swings = {p.direction: p for p in all_peaks if p.primary and p.curve == "eta_d"}
     swing = swings.get("forward")
     beyond = any(p.at_end and p.frequency == frequency[-1] for p in primary.values())
-    top = max((p.frequency for p in found if p.primary), default=math.inf)
+    top = max((p.frequency for p in all_peaks if p.primary), default=math.inf)
     return Evidence(
         natural_frequency=oscillator.natural_frequency,
         swept=(float(frequency[0]), float(frequency[-1])),
@@ -240,16 +240,16 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
             and item.low < top
             and not within(item.low, begins)
         ),
-        irregular=tuple(_irregular(both, irregular, uneven, found, begins)),
+        irregular=tuple(_irregular(both, irregular, uneven, all_peaks, begins)),
         onset=begins,
         secondary=tuple(
             peak
-            for peak in found
+            for peak in all_peaks
             if _regular_secondary(peak, both, irregular, primary)
             and not within(peak.frequency, begins)
             and foot_in_contact(both, *_place(peak, both), prominence)
         ),
-        peaks=found,
+        peaks=all_peaks,
         hidden_by=_growth(rig, both, primary, swings) if len(touched) else None,
     )
 
@@ -298,7 +298,7 @@ def _irregular(
     both: Swept,
     irregular: Flags,
     uneven: Flags,
-    found: tuple[Peak, ...],
+    all_peaks: tuple[Peak, ...],
     begins: tuple[tuple[float, float], ...],
 ) -> Iterator[Irregular]:
     frequency = both.frequency
@@ -316,7 +316,7 @@ def _irregular(
             }
             heights = [
                 p.prominence / p.value
-                for p in found
+                for p in all_peaks
                 if p.curve == "eta_a"
                 and p.direction == direction
                 and not p.primary

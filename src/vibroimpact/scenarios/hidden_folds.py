@@ -33,13 +33,13 @@ def hidden_stretches(both: Swept, ended: Holds) -> list[tuple[int, int]]:
     may = other | ~(plain[1:] & plain[:-1])
     for curve in (both.eta_a, both.eta_d):
         may |= _steep(curve) | _differing_intervals(curve)
-    found: list[tuple[int, int]] = []
+    stretches: list[tuple[int, int]] = []
     for i in np.flatnonzero(may & (touching[1:] | touching[:-1])).tolist():
-        if found and i <= found[-1][1] + 1:
-            found[-1] = found[-1][0], i + 1
+        if stretches and i <= stretches[-1][1] + 1:
+            stretches[-1] = stretches[-1][0], i + 1
         else:
-            found.append((i, i + 1))
-    return found
+            stretches.append((i, i + 1))
+    return stretches
 
 
 def _height(curve: Array) -> float:

@@ -227,8 +227,8 @@ def _level(
         if mine.any() and not held.done(level, row, column):
             at = np.argwhere(mine) + np.array([place[0].start, place[1].start])
             nodes = [plan.values(int(i), int(j)) for i, j in at]
-            found = _parallel(nodes, compute, workers, progress, done, total)
-            held.write(place, mine, level, found)
+            variables = _parallel(nodes, compute, workers, progress, done, total)
+            held.write(place, mine, level, variables)
             held.mark(level, row, column)
         done += int(mine.sum())
         if progress:
@@ -263,12 +263,12 @@ def _parallel(
     starts = [*range(0, last, few), *range(last, len(nodes), max(1, few // _LAST))]
     parts = [nodes[i:j] for i, j in itertools.pairwise([*starts, len(nodes)])]
 
-    told = progress and (lambda done, _: progress(before + done // RIG, total))
-    results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=told)
+    report = progress and (lambda done, _: progress(before + done // RIG, total))
+    results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=report)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
 
 
-def _base(given: AnyRig | None) -> Base:
-    if given is None:
-        given = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
-    return Base(one_sine(as_rig(given)))
+def _base(rig: AnyRig | None) -> Base:
+    if rig is None:
+        rig = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
+    return Base(one_sine(as_rig(rig)))

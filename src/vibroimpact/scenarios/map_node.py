@@ -113,32 +113,32 @@ def _seen(
     swept = held(rig.oscillator, high, step)
     curves, ended = swept_alone(rig, swept, waited, WINDOW, tally, transient)
     check()
-    found = shown(rig, curves, 0.5 * thresholds.prominence)
-    found = with_kinds(found, rig, ended, KIND_CYCLES, check, brief=True)
-    if _rests_on_a_jump(found, thresholds):
+    evidence = shown(rig, curves, 0.5 * thresholds.prominence)
+    evidence = with_kinds(evidence, rig, ended, KIND_CYCLES, check, brief=True)
+    if _rests_on_a_jump(evidence, thresholds):
         check()
-        found = with_folds(found, rig, ended, curves.both)
-    return found
+        evidence = with_folds(evidence, rig, ended, curves.both)
+    return evidence
 
 
-def _rests_on_a_jump(found: Evidence, thresholds: Thresholds) -> bool:
+def _rests_on_a_jump(evidence: Evidence, thresholds: Thresholds) -> bool:
     """Whether the scenario may hang on a jump that no two frequencies show."""
-    if found.right or found.contact is None:
+    if evidence.right or evidence.contact is None:
         return False
-    named = {scenario(found._replace(folds=folds), thresholds) for folds in ((), (math.inf,))}
+    named = {scenario(evidence._replace(folds=folds), thresholds) for folds in ((), (math.inf,))}
     return len(named) > 1
 
 
-def _peak(found: Evidence, curve: Curve, direction: Direction) -> float:
-    heights = [p.value for p in found.peaks if p.curve == curve and p.direction == direction]
+def _peak(evidence: Evidence, curve: Curve, direction: Direction) -> float:
+    heights = [p.value for p in evidence.peaks if p.curve == curve and p.direction == direction]
     return max(heights, default=math.nan)
 
 
-def _over(found: Evidence, frequency: float | None) -> float:
-    return math.nan if frequency is None else frequency / found.natural_frequency
+def _over(evidence: Evidence, frequency: float | None) -> float:
+    return math.nan if frequency is None else frequency / evidence.natural_frequency
 
 
-def _ranges(found: Evidence, kind: str) -> int:
+def _ranges(evidence: Evidence, kind: str) -> int:
     """How many ranges hold such motions, those of the two directions that overlap once."""
-    holding = [item for item in found.irregular if kind in item.kinds]
-    return len(found._replace(irregular=tuple(holding)).irregular_once)
+    holding = [item for item in evidence.irregular if kind in item.kinds]
+    return len(evidence._replace(irregular=tuple(holding)).irregular_once)

@@ -35,7 +35,7 @@ Check = Callable[[], None]
 
 
 def with_kinds(
-    found: Evidence,
+    evidence: Evidence,
     rig: Rig,
     ended: Holds,
     cycles: int = KIND_CYCLES,
@@ -53,19 +53,19 @@ def with_kinds(
     """
     oscillator = rig.oscillator
     named: list[Irregular] = []
-    for item in found.irregular:
-        told = brief and any(
+    for item in evidence.irregular:
+        is_counted = brief and any(
             "chaotic" in known.kinds and known.low <= item.high and item.low <= known.high
             for known in named
         )
-        if item.not_periodic is None or (told and _forgetful(oscillator, item.high)):
+        if item.not_periodic is None or (is_counted and _forgetful(oscillator, item.high)):
             named.append(item)
             continue
         check()
         kind = _kind(item, rig, ended, cycles, check)
         kinds = tuple(kind if known == "not periodic" else known for known in item.kinds)
         named.append(item._replace(kinds=kinds))
-    return found._replace(irregular=tuple(named))
+    return evidence._replace(irregular=tuple(named))
 
 
 def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
@@ -112,8 +112,8 @@ def _kind(
     )
 
     def judged(state: NDArray[np.float64], cycles: int) -> tuple[str, bool]:
-        told, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
-        return (told.motion, told.bounded) if status is Status.DONE else ("", False)
+        judgement, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
+        return (judgement.motion, judgement.bounded) if status is Status.DONE else ("", False)
 
     state = followed.state.copy()
     motion, bounded = judged(state, cycles)
@@ -126,7 +126,7 @@ def _kind(
 
 
 def with_folds(
-    found: Evidence,
+    evidence: Evidence,
     rig: Rig,
     ended: Holds,
     both: Swept | None = None,
@@ -137,10 +137,10 @@ def with_folds(
     where it may turn unseen, as a map asks; of a hysteresis that shows, folds may then be missing.
     """
     oscillator, shaken = rig.oscillator, rig.sine
-    first = _primary_orbit(found, shaken, ended)
+    first = _primary_orbit(evidence, shaken, ended)
     if first is None:
-        return found._replace(folds=None)
-    low, high = found.swept
+        return evidence._replace(folds=None)
+    low, high = evidence.swept
     stretches = None if both is None else hidden_stretches(both, ended)
     begins = [None] if stretches is None else [_within(ended, shaken, *one) for one in stretches]
     parts = [one for one in begins if one is not None]
@@ -148,7 +148,7 @@ def with_folds(
     if turns is None:
         turns = _turns(oscillator, [(first, low, high)])
     folds = None if turns is None else tuple(sorted(f for f in turns if low < f < high))
-    return found._replace(folds=folds)
+    return evidence._replace(folds=folds)
 
 
 _Begun: TypeAlias = tuple[tuple[Harmonic, State], float, float]
@@ -181,17 +181,17 @@ def _within(ended: Holds, shaken: Harmonic, first: int, last: int) -> _Begun | N
     return None
 
 
-def primary_branch(found: Evidence, rig: Rig, ended: Holds) -> xr.Dataset | None:
+def primary_branch(evidence: Evidence, rig: Rig, ended: Holds) -> xr.Dataset | None:
     """The branch of orbits through the primary resonance, over the frequencies that were swept.
 
     None where the mass hits no bumper, where the motion there is not of one forcing cycle, or
     where Newton's method finds no orbit, as on the edge of stability.
     """
     oscillator, shaken = rig.oscillator, rig.sine
-    first = _primary_orbit(found, shaken, ended)
+    first = _primary_orbit(evidence, shaken, ended)
     if first is None:
         return None
-    low, high = found.swept
+    low, high = evidence.swept
     try:
         return branch(Rig(oscillator, first[0]), first[1], vary={"frequency": (low, high)})
     except InputError:
@@ -199,11 +199,13 @@ def primary_branch(found: Evidence, rig: Rig, ended: Holds) -> xr.Dataset | None
 
 
 def _primary_orbit(
-    found: Evidence, shaken: Harmonic, ended: Holds
+    evidence: Evidence, shaken: Harmonic, ended: Holds
 ) -> tuple[Harmonic, State] | None:
     """The forcing at the primary resonance and the state there, where the branch begins."""
-    tops = [p for p in found.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"]
-    if found.contact is None or not tops:
+    tops = [
+        p for p in evidence.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"
+    ]
+    if evidence.contact is None or not tops:
         return None
     i = int(np.searchsorted(ended.frequency, tops[0].frequency))
     return None if int(ended.period[0, i]) != 1 else _orbit(ended, shaken, i)

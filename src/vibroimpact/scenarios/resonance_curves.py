@@ -117,12 +117,12 @@ def swept_alone(
     ready = plan_sweep(rig, frequencies)
     settling = Settling(_TOLERANCE, max_cycles, window, _MAX_EVENTS)
     shape = (2, len(frequencies))
-    found, states = np.empty((*shape, steady_response.RESULTS)), []
+    hold_rows, states = np.empty((*shape, steady_response.RESULTS)), []
     for k, direction in enumerate(DIRECTIONS):
-        found[k], reached = rows(ready, direction, 0.0, settling, tally, transient)
+        hold_rows[k], reached = rows(ready, direction, 0.0, settling, tally, transient)
         states.append(reached)
     # One quantity after the other in memory.
-    each = HoldRows(np.moveaxis(found.transpose(2, 0, 1).copy(), 0, -1))
+    each = HoldRows(np.moveaxis(hold_rows.transpose(2, 0, 1).copy(), 0, -1))
     low, high = each.displacement_min, each.displacement_max
     excursion = high - low
     period = each.period

@@ -63,8 +63,8 @@ def highest(rig: Rig) -> float:
     oscillator, shaken = rig.oscillator, rig.sine
     free = max(1.0, resonance_ratio(rig))
     least = ROUND * math.ceil(min(LEAST_HIGH * free, MOST_HIGH) / ROUND)
-    found = oscillator.stops
-    if not found:
+    stops = oscillator.stops
+    if not stops:
         return least
     stiff = max(_in_contact(oscillator, side, shaken) for side in clearances_at_rest(oscillator))
     gaps = list(clearances_at_rest(oscillator).values())

@@ -65,7 +65,7 @@ class Thresholds:
                 yield name, replace(self, **{name: min(1.0, factor * getattr(self, name))})
 
 
-def checked(given: object) -> Thresholds:
+def checked(thresholds: object) -> Thresholds:
     """Return the thresholds to use; None gives the defaults.
 
     Raises
@@ -73,11 +73,11 @@ def checked(given: object) -> Thresholds:
     InputError
         If it is something else.
     """
-    if given is None:
+    if thresholds is None:
         return Thresholds()
-    if not isinstance(given, Thresholds):
+    if not isinstance(thresholds, Thresholds):
         raise InputError(
-            f"thresholds: {shown(given)} is not a Thresholds; pass an object such as "
+            f"thresholds: {shown(thresholds)} is not a Thresholds; pass an object such as "
             "Thresholds(prominence=0.02), or None"
         )
-    return given
+    return thresholds

@@ -135,12 +135,12 @@ def bifurcation_curve(
             f"start: this rig has no {kind} near {first} = {own}; pass a bifurcation that "
             "was computed for this rig"
         )
-    traces, told = [], counted(progress)
+    traces, report = [], counted(progress)
     for sense in (-1.0, 1.0):
         along = np.append(np.zeros(len(y) - 2), [0.3 * sense, sense])
         begin = Place(system, spot, unit_tangent(spot.jacobian, along, system.seen), 0.0)
         locus = Locus(begin, ends)
-        traces.append(arclength.follow(locus, begin, most_points, told))
+        traces.append(arclength.follow(locus, begin, most_points, report))
         if traces[0].ended == CLOSED:
             break
     cusps = [

@@ -186,35 +186,35 @@ def bifurcation_diagram(
 
     def seen(item: tuple[list[Rig], _Part], tally: Tally) -> list[Seen]:
         mine, part = item
-        found: list[Seen] = []
+        motions: list[Seen] = []
         order = slice(None, None, -1 if part.down else 1)
         stepped(
             mine[order],
             part.start,
             settling,
-            lambda held: found.append(look_at(held, look, own)),
+            lambda held: motions.append(look_at(held, look, own)),
             tally,
             carry=part.start is None,
         )
-        return found[order]
+        return motions[order]
 
     def done(parts: list[_Part], before: int) -> dict[str, list[Seen]]:
-        told = progress and (lambda ready, _: progress(before + ready, total))
+        report = progress and (lambda ready, _: progress(before + ready, total))
         items = [(every[part.values], part) for part in parts]
         held = sum(len(mine) for mine, _ in items)
-        lists = each(seen, items, steps=held, threads=workers, progress=told)
-        found: dict[str, list[Seen]] = {part.name: [] for part in parts}
+        lists = each(seen, items, steps=held, threads=workers, progress=report)
+        motions: dict[str, list[Seen]] = {part.name: [] for part in parts}
         for part, one in zip(parts, lists, strict=True):
-            found[part.name] += one
-        return found
+            motions[part.name] += one
+        return motions
 
     total = steps * (len(ways) + random)
-    found = done(_parts(ways, steps), 0)
+    motions = done(_parts(ways, steps), 0)
     if random:
-        met = [one.held for seen in found.values() for one in seen]
+        met = [one.held for seen in motions.values() for one in seen]
         states = random_states(met, every, random, seed)
         drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
-        found |= done(_parts(drawn, steps), steps * len(ways))
+        motions |= done(_parts(drawn, steps), steps * len(ways))
     about_motions = {
         **system_parameters(system),
         **excitation_parameters(excitation),
@@ -226,8 +226,8 @@ def bifurcation_diagram(
         **look._asdict(),
         **about(own),
     }
-    data, notes = _dataset(system, varied.name, values, found, section, excitation.phase)
-    numbers = [one.outputs for some in found.values() for one in some]
+    data, notes = _dataset(system, varied.name, values, motions, section, excitation.phase)
+    numbers = [one.outputs for some in motions.values() for one in some]
     add_outputs(data, own, np.reshape(numbers, (*data["period"].shape, len(own))))
     data.attrs["parameter"] = varied.name
     return describe(data, CREATED_BY, about_motions, notes, varied=[varied, *own])
@@ -247,20 +247,22 @@ def _ways(
     directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, system: System
 ) -> dict[str, _Array | None]:
     """Return the initial states: None for directions, in which motions are continued."""
-    given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
-    for direction in given:
+    direction_names = (
+        (directions,) if isinstance(directions, str) else check_list(directions, "directions")
+    )
+    for direction in direction_names:
         check_name(direction, DIRECTIONS, "directions")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     for name in named:
         if name in DIRECTIONS:
             raise InputError(f"starts: {name!r} is the name of a direction; use another name")
-    if not (given or named or random):
+    if not (direction_names or named or random):
         raise InputError(
             "directions: neither a direction nor a start is given; pass at least one direction, "
             "such as 'up', or a start"
         )
     states = engine_system(system)
-    ways: dict[str, _Array | None] = dict.fromkeys(given)
+    ways: dict[str, _Array | None] = dict.fromkeys(direction_names)
     return ways | {str(name): states.vector_of(states.read(one)) for name, one in named.items()}
 
 
@@ -278,7 +280,7 @@ def _dataset(
     system: System,
     name: str,
     values: _Array,
-    found: Mapping[str, list[Seen]],
+    motions: Mapping[str, list[Seen]],
     section: Kind,
     phase: float,
 ) -> tuple[xr.Dataset, list[str]]:
@@ -287,8 +289,8 @@ def _dataset(
     The points of each value are padded with NaN.
     """
     states = engine_system(system)
-    seen = list(itertools.chain.from_iterable(found.values()))
-    shape, dims = (len(found), len(values)), ("start", name)
+    seen = list(itertools.chain.from_iterable(motions.values()))
+    shape, dims = (len(motions), len(values)), ("start", name)
     most = max((len(one.points) for one in seen), default=0)
     width = point_width(section, states)
     padded: _Array = np.full((len(seen), most, width), np.nan)
@@ -298,18 +300,18 @@ def _dataset(
     measured = np.array([one.held.measured.array for one in seen])
     measured[[one.status not in (Status.DONE, Status.NOT_SETTLED) for one in seen]] = np.nan
     measured = measured.reshape(*shape, -1)
-    frequency = np.array([[one.held.found.excitation.frequency] for one in seen])
+    frequency = np.array([[one.held.motion.excitation.frequency] for one in seen])
     scalars = {
         "motion": np.array([one.kind.motion for one in seen]),
         "period": np.array([one.kind.period for one in seen], dtype=np.int64),
-        "cycles": np.array([one.held.found.cycles for one in seen], dtype=np.int64),
+        "cycles": np.array([one.held.motion.cycles for one in seen], dtype=np.int64),
         "status": np.array([int(one.status) for one in seen], dtype=np.int64),
     }
     rates = {
         "exponents": frequency * np.array([one.kind.exponents[:2] for one in seen]),
         "exponents_uncertainty": frequency * np.array([one.kind.uncertainty[:2] for one in seen]),
     }
-    ends = states.components(np.array([one.held.found.state for one in seen]), phase)
+    ends = states.components(np.array([one.held.motion.state for one in seen]), phase)
     variables: dict[str, Any] = {
         **states.measured(measured, dims),
         **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
@@ -318,7 +320,7 @@ def _dataset(
         "section": ((*dims, "component"), ends.reshape(*shape, -1)),
     }
     coordinates = {
-        "start": list(found),
+        "start": list(motions),
         name: values,
         "component": states.names,
         **part_names(system, "mass", "stop"),

@@ -160,17 +160,17 @@ class Locus:
         point, mode = start
         parameters = self.first.y[-2:]
         here = system._replace(mode=mode).value(np.append(point[:-1], parameters))
-        found: list[tuple[_Array, _Array]] = []
+        marks: list[tuple[_Array, _Array]] = []
         for image, mode in () if here is None else images(here[0], mirrored=False):
             y = np.append(image[:-1], parameters)
             spot = system._replace(mode=mode).spot(y)
             if spot is None:
                 break
             # The parameters are the same for all of them, and so is their sense.
-            found.append(
+            marks.append(
                 (y, unit_tangent(spot.jacobian, _along_parameters(self.first.tangent), self.seen))
             )
-        return found
+        return marks
 
     def in_other_coordinates(self, here: Place) -> Place | None:
         """See `Path`: at another section, for where an event falls on it there is a corner."""
@@ -239,15 +239,15 @@ class Locus:
             )
 
         length = float((there.y - here.y) / self.scale * self.seen @ here.tangent)
-        found = zero_within(here.spot, length, partial(self.solved, here), forwards)
-        return None if found is None else found[0]
+        zero = zero_within(here.spot, length, partial(self.solved, here), forwards)
+        return None if zero is None else zero[0]
 
 
 def _along_parameters(tangent: _Array) -> _Array:
     """A tangent without its parts along the state."""
-    found = np.zeros_like(tangent)
-    found[-2:] = tangent[-2:]
-    return found
+    projection = np.zeros_like(tangent)
+    projection[-2:] = tangent[-2:]
+    return projection
 
 
 def _same(here: Place, orbit: Orbit) -> bool:

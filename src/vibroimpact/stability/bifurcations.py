@@ -225,10 +225,10 @@ def _own_image(near: Orbit) -> Orbit | None:
     def at(value: float) -> Orbit | None:
         point = near.point.copy()
         point[VALUE] = value
-        status, found = corrected(half, point, mode)
-        away = section.scaled(found.point - near.point)
+        status, orbit = corrected(half, point, mode)
+        away = section.scaled(orbit.point - near.point)
         close = np.linalg.norm(away) <= _MIRRORS
-        return found if status is Status.DONE and close and not any(found.contacts) else None
+        return orbit if status is Status.DONE and close and not any(orbit.contacts) else None
 
     step = 1e-6 * section.scale[VALUE]
     first, second = at(near.value), at(near.value + step)
@@ -243,9 +243,11 @@ def _own_image(near: Orbit) -> Orbit | None:
     return whole if status is Status.DONE else None
 
 
-def unexplained(stations: list[Station], found: list[Bifurcation]) -> list[tuple[float, float]]:
+def unexplained(
+    stations: list[Station], bifurcations: list[Bifurcation]
+) -> list[tuple[float, float]]:
     """Values of the parameter between which stability changes though no bifurcation is found."""
-    listed = [one.arclength for one in found]
+    listed = [one.arclength for one in bifurcations]
     changes = []
     for here, there in itertools.pairwise(stations):
         if here.orbit.stable == there.orbit.stable or here.piece != there.piece:
@@ -307,9 +309,9 @@ def _locate(
         length = float(chord @ start.tangent)
         if length <= 0.0:
             continue
-        found = zero_within(start.orbit, length, partial(solved, start), function)
-        if found is not None and abs(function(found[0])) <= _SMALL * largest:
-            return found[0], start.arclength + sense * found[1]
+        zero = zero_within(start.orbit, length, partial(solved, start), function)
+        if zero is not None and abs(function(zero[0])) <= _SMALL * largest:
+            return zero[0], start.arclength + sense * zero[1]
     nearest = min((here, there), key=lambda station: abs(function(station.orbit)))
     return nearest.orbit, nearest.arclength
 
@@ -322,19 +324,19 @@ def own_mirror(orbit: Orbit, tolerance: float) -> bool:
     return is_fixed(section.simpler(section.count, mirror=True), orbit, tolerance)
 
 
-def bifurcating_orbits(found: Bifurcation) -> Iterator[Station]:
+def bifurcating_orbits(bifurcation: Bifurcation) -> Iterator[Station]:
     """Orbits on the branches that a symmetry breaking or a period doubling gives birth to.
 
     One station of each pair: the other is its mirror image, or itself a period later.
     """
-    section = found.orbit.section
-    if found.kind == BREAKING and section.mirror:
+    section = bifurcation.orbit.section
+    if bifurcation.kind == BREAKING and section.mirror:
         target = section.full()
-    elif found.kind == DOUBLING:
+    elif bifurcation.kind == DOUBLING:
         target = section.times(2)
     else:
         return
-    values, vectors = np.linalg.eig(found.orbit.carried.T)
+    values, vectors = np.linalg.eig(bifurcation.orbit.carried.T)
     vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:VALUE]
     normal = np.append(vector, 0.0)
     size = float(np.linalg.norm(normal * section.seen))
@@ -342,11 +344,11 @@ def bifurcating_orbits(found: Bifurcation) -> Iterator[Station]:
         return  # only a bumper's deformation would differ
     normal /= size
     for distance in _OFF:
-        point = found.orbit.point + distance * normal * section.scale
-        status, orbit = corrected(target, point, found.orbit.mode, normal)
+        point = bifurcation.orbit.point + distance * normal * section.scale
+        status, orbit = corrected(target, point, bifurcation.orbit.mode, normal)
         if status is not Status.DONE:
             continue
-        away = section.scaled(orbit.point - found.orbit.point)
+        away = section.scaled(orbit.point - bifurcation.orbit.point)
         # It must not have slid back to the orbit that was there before, nor to another such one.
         if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not is_of_simpler_map(
             orbit
@@ -355,11 +357,11 @@ def bifurcating_orbits(found: Bifurcation) -> Iterator[Station]:
             return
 
 
-def with_critical(stations: list[Station], found: list[Bifurcation]) -> list[Station]:
+def with_critical(stations: list[Station], bifurcations: list[Bifurcation]) -> list[Station]:
     """A branch with the orbits of its bifurcations among the others, where they belong."""
     added = [
         Station(b.orbit, np.zeros(len(b.orbit.point)), b.arclength, -1, critical=True)
-        for b in found
+        for b in bifurcations
         if b.kind != GRAZING
     ]
     merged = sorted([*stations, *added], key=lambda station: station.arclength)

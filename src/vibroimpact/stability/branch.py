@@ -134,11 +134,13 @@ def turning_points(
     _, first = _first_orbit(rig, start, along, 1)
     path = InContact if bounded_by_flight(first) else Branch
     stations, ended, _ = _both_ways(first, span, most_points, path=path)
-    found = [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
+    frequencies = [
+        one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns
+    ]
     for last, why, sense in ((stations[0], ended[0], -1.0), (stations[-1], ended[1], 1.0)):
         if why == FREE and turns_into_flight(last, sense):
-            found.append(last.orbit.value)
-    return found
+            frequencies.append(last.orbit.value)
+    return frequencies
 
 
 def _first_orbit(
@@ -169,10 +171,10 @@ def _both_ways(
     path: type[Branch] = Branch,
 ) -> tuple[list[Station], tuple[str, str], bool]:
     """Return the orbits of a branch in order, why it ends, and whether it is closed."""
-    traces, told = [], counted(progress)
+    traces, report = [], counted(progress)
     for sense in (-1.0, 1.0):
         start = Station(first, first.tangent(sense * first.section.held), 0.0, 0)
-        trace = arclength.follow(path(start, *span), start, most_points, told)
+        trace = arclength.follow(path(start, *span), start, most_points, report)
         traces.append(trace)
         if trace.ended == CLOSED:
             break

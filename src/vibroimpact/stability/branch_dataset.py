@@ -140,22 +140,22 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
 
 def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     """The bifurcations as variables."""
-    found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
-    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
-    orbits = [b.orbit for _, b in found]
+    pairs = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
+    multipliers = np.array([b.orbit.multipliers for _, b in pairs]).reshape(-1, fam.states)
+    orbits = [b.orbit for _, b in pairs]
     several = fam.of_several_masses
     sizes = _sizes(fam, orbits, _rows(fam, orbits), "bifurcation")
     values: dict[str, Any] = {
-        "kind": np.array([b.kind for _, b in found], dtype=str),
-        "value": [b.orbit.value for _, b in found],
-        "arclength": [b.arclength for _, b in found],
-        "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
-        "branch": np.array([i for i, _ in found], dtype=np.int64),
-        "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
-        "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
-        "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
+        "kind": np.array([b.kind for _, b in pairs], dtype=str),
+        "value": [b.orbit.value for _, b in pairs],
+        "arclength": [b.arclength for _, b in pairs],
+        "turns": np.array([int(b.turns) for _, b in pairs], dtype=np.int64),
+        "branch": np.array([i for i, _ in pairs], dtype=np.int64),
+        "period": np.array([b.orbit.section.period for _, b in pairs], dtype=np.int64),
+        "antisymmetric": np.array([b.orbit.section.mirror for _, b in pairs], dtype=bool),
+        "contacts": np.array([_contacts(b) for _, b in pairs], dtype=str),
     }
-    sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(fam.layout.names))
+    sections = np.array([state_of(b.orbit) for _, b in pairs]).reshape(-1, len(fam.layout.names))
     return {
         **{f"bifurcation_{name}": sizes[name] for name in (_OF_MASSES if several else VARIABLES)},
         **{
@@ -168,12 +168,12 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     }
 
 
-def _contacts(found: Bifurcation) -> str:
+def _contacts(bifurcation: Bifurcation) -> str:
     """Contacts per period, right (R) and left (L); at a grazing on both sides of it.
 
     Of an assembly with the names of the stops.
     """
-    system = found.orbit.section.family.layout.system
+    system = bifurcation.orbit.section.family.layout.system
 
     def counted(contacts: tuple[int, ...]) -> str:
         if system.by_mass:
@@ -183,17 +183,17 @@ def _contacts(found: Bifurcation) -> str:
         laws = system.stop_laws
         return contact_counts(right, left, (laws.get("right"), laws.get("left")))
 
-    before = counted(found.orbit.contacts)
-    if found.contacts_behind == found.orbit.contacts:
+    before = counted(bifurcation.orbit.contacts)
+    if bifurcation.contacts_behind == bifurcation.orbit.contacts:
         return before
-    return f"{before} | {counted(found.contacts_behind)}"
+    return f"{before} | {counted(bifurcation.contacts_behind)}"
 
 
 def state_of(one: Orbit) -> list[float]:
     """The state at the section as the components of a dataset's state."""
     family = one.section.family
-    found: list[float] = family.layout.components(vector_of(one), family.phase).tolist()
-    return found
+    components: list[float] = family.layout.components(vector_of(one), family.phase).tolist()
+    return components
 
 
 def _rows(fam: Family, orbits: list[Orbit]) -> _Array:
@@ -204,9 +204,9 @@ def _rows(fam: Family, orbits: list[Orbit]) -> _Array:
 def _sizes(fam: Family, orbits: list[Orbit], rows: _Array, dim: str) -> dict[str, Any]:
     """Return extremes, excursions, contacts per cycle and contact forces of orbits."""
     # Neither the mass nor whether a stop is rigid changes along a branch.
-    found = fam.layout.measured(rows, (dim,))
+    variables = fam.layout.measured(rows, (dim,))
     if fam.of_several_masses:
-        return found
+        return variables
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
     exciting = np.array([_exciting(one) for one in orbits])
     for name, of, scale in (
@@ -214,8 +214,8 @@ def _sizes(fam: Family, orbits: list[Orbit], rows: _Array, dim: str) -> dict[str
         ("eta_a", "acceleration_excursion", free[:, 1]),
         ("transmissibility", "transmitted_force_excursion", exciting),
     ):
-        found[name] = (dim, found[of][1] / scale)
-    return found
+        variables[name] = (dim, variables[of][1] / scale)
+    return variables
 
 
 def _measured(one: Orbit) -> _Array:

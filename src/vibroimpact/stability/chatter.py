@@ -37,9 +37,9 @@ _FIXED = 1e-9
 """Scaled distance from its image at which a mass placed on its stop is the orbit."""
 
 
-def rests(found: Orbit) -> bool:
+def rests(orbit: Orbit) -> bool:
     """Whether the mass comes to rest on a rigid stop: there all disturbances of it end."""
-    return has_rigid_stop(found) and not found.carried[:2, :2].any()
+    return has_rigid_stop(orbit) and not orbit.carried[:2, :2].any()
 
 
 @dataclass
@@ -72,26 +72,26 @@ class Rested:
         return bool(np.abs(away).max() <= _FIXED)
 
 
-def placed_at_rest(found: Orbit) -> Orbit:
+def placed_at_rest(orbit: Orbit) -> Orbit:
     """The same orbit with the mass at rest on its stop at the section, if it rests there.
 
     A state beside it, without velocity but in flight, would have a contact more.
     """
-    mode = int(found.mode)
-    if not mode or found.section.family.of_several_masses:
-        return found
-    system = found.section.family.system(found.value)
+    mode = int(orbit.mode)
+    if not mode or orbit.section.family.of_several_masses:
+        return orbit
+    system = orbit.section.family.system(orbit.value)
     for stop, sign in enumerate((1.0, -1.0)):
         at = par.stop_at(stop)
         if not (mode >> stop & 1 and system[at + par.KIND] == par.RIGID):
             continue
-        point = found.point.copy()
+        point = orbit.point.copy()
         point[:2] = sign * system[at + par.GAP], 0.0
-        status, there, _ = evaluated(found.section, point, float(mode))
-        fewer = sum(there.contacts) < sum(found.contacts)
+        status, there, _ = evaluated(orbit.section, point, float(mode))
+        fewer = sum(there.contacts) < sum(orbit.contacts)
         if status is Status.DONE and fewer and there.facts[section_map.RESIDUAL] <= _FIXED:
             return there
-    return found
+    return orbit
 
 
 def completed_elsewhere(one: Orbit, other: Orbit) -> bool:
@@ -116,10 +116,10 @@ def _same(one: _Array, other: _Array) -> bool:
     return bool((common[:, 1:] == shorter[:, 1:]).all() and (apart <= _APART).all())
 
 
-def _chatters(found: Orbit) -> list[_Array] | None:
+def _chatters(orbit: Orbit) -> list[_Array] | None:
     """Return the events of a period (time in cycles, kind, stop), cut where each rest begins."""
-    section = found.section
-    system = section.family.system(found.value)
+    section = orbit.section
+    system = section.family.system(orbit.value)
     phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])
     events = np.empty(((section.period + 1) * MAX_EVENTS + 2, record.EVENT))
     _, count, outcome = batch.trajectory(
@@ -127,7 +127,7 @@ def _chatters(found: Orbit) -> list[_Array] | None:
         float(system[section_map.AMPLITUDE]),
         frequency,
         phase,
-        vector_of(found),
+        vector_of(orbit),
         0.0,
         float(section.period),
         0,

@@ -44,7 +44,7 @@ _Start: TypeAlias = State | AssemblyState | NDArray[np.float64]
 class _Kept(NamedTuple):
     """A motion, and the initial states that led to it or to its mirror image."""
 
-    found: Settled
+    settled_motion: Settled
     motion: xr.Dataset
     starts: list[str]
     mirrored_starts: list[str]
@@ -186,13 +186,13 @@ def find_motions(
     followed = counted(progress) or (lambda _: None)
 
     def go(name: str, start: _Start) -> None:
-        found = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
-        if found.status in (Status.DONE, Status.NOT_SETTLED):
-            found = _at_phase(found, excitation, max_events)
-        if found.status in (Status.DONE, Status.NOT_SETTLED):
-            _add_motion(kept, found, name, options)
+        steady_motion = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
+        if steady_motion.status in (Status.DONE, Status.NOT_SETTLED):
+            steady_motion = _at_phase(steady_motion, excitation, max_events)
+        if steady_motion.status in (Status.DONE, Status.NOT_SETTLED):
+            _add_motion(kept, steady_motion, name, options)
         else:
-            given_up.setdefault(found.status, (start, []))[1].append(name)
+            given_up.setdefault(steady_motion.status, (start, []))[1].append(name)
         followed(name)
 
     go("rest", states.read(None).replace(phase=excitation.phase))
@@ -200,25 +200,27 @@ def find_motions(
         go(name, start)
     for name, state in named.items():
         go(name, states.read(state))
-    size = max((reach(one.found, one.found.state) for one in kept), default=0.0)
+    size = max((reach(one.settled_motion, one.settled_motion.state) for one in kept), default=0.0)
     size = size or reach_at_rest(rig)
     generator = np.random.default_rng(seed)
     for number in range(random):
         drawn = random_state(rig, generator, size, excitation.angular_frequency)
         go(f"random {number + 1}", nearest_state(rig, drawn))
-    if kept and kept[0].found.symmetric:
+    if kept and kept[0].settled_motion.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
-                image = image_of(one.found, max_events)
+                image = image_of(one.settled_motion, max_events)
                 if image is not None:
                     go("mirror image", image.state)
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"].max()))
     motions = [_labelled(one, max_events) for one in kept]
-    for given, names in given_up.values():
+    for first_start, names in given_up.values():
         # Told with a warning, and once.
         motion = steady(
             Rig(system, excitation),
-            states.state(given, excitation.phase) if isinstance(given, np.ndarray) else given,
+            states.state(first_start, excitation.phase)
+            if isinstance(first_start, np.ndarray)
+            else first_start,
             samples,
             window=window,
             max_cycles=max_cycles,
@@ -231,9 +233,9 @@ def find_motions(
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
-        one.found.symmetric
+        one.settled_motion.symmetric
         and not bool(one.motion["antisymmetric"])
-        and not mirrors(one.found, one.found, max_events)
+        and not mirrors(one.settled_motion, one.settled_motion, max_events)
     )
     data = one.motion.assign(mirror_pair=pair)
     data.attrs["starts"] = ", ".join(one.starts)
@@ -242,29 +244,32 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     return describe(data, "vibroimpact.coexisting_motions")
 
 
-def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
+def _at_phase(motion: Settled, excitation: Repeated, max_events: int) -> Settled:
     """Return the motion at the section of the excitation, for any phase of its initial state."""
-    ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
-    there = found.engine.at_phase(excitation.phase)
+    ahead = ((excitation.phase - motion.excitation.phase) / (2.0 * math.pi)) % 1.0
+    there = motion.engine.at_phase(excitation.phase)
     if ahead == 0.0:
-        return found._replace(engine=there)
-    status, state = later(found, found.state, ahead, max_events)
+        return motion._replace(engine=there)
+    status, state = later(motion, motion.state, ahead, max_events)
     if status is not Status.DONE:
-        return found._replace(status=status)
-    return found._replace(state=state, engine=there)
+        return motion._replace(status=status)
+    return motion._replace(state=state, engine=there)
 
 
 def _add_motion(
-    kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]
+    kept: list[_Kept], motion: Settled, name: str, options: tuple[int, int, int, int]
 ) -> None:
     """Add a new motion, or add its initial state to a known motion."""
     for one in kept:
-        if one.found.period != found.period or one.found.status is not found.status:
+        if (
+            one.settled_motion.period != motion.period
+            or one.settled_motion.status is not motion.status
+        ):
             continue
-        if same(one.found, found, options[3]):
+        if same(one.settled_motion, motion, options[3]):
             one.starts.append(name)
             return
-        if found.symmetric and mirrors(one.found, found, options[3]):
+        if motion.symmetric and mirrors(one.settled_motion, motion, options[3]):
             one.mirrored_starts.append(name)
             return
-    kept.append(_Kept(found, describe_motion(found, *options), [name], []))
+    kept.append(_Kept(motion, describe_motion(motion, *options), [name], []))

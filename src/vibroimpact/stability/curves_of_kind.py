@@ -65,21 +65,21 @@ def curves_of_kind(
         data = branch(rig, vary=only)
     else:
         data = resonance_diagram(rig, only, phase=shaking.phase, progress=progress)
-    found: dict[str, xr.Dataset] = {}
+    curves: dict[str, xr.Dataset] = {}
     for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
         value = float(data["bifurcation_value"][i])
-        if any(_passes(curve, names, value, over.value) for curve in found.values()):
+        if any(_passes(curve, names, value, over.value) for curve in curves.values()):
             continue
         start = data.isel(bifurcation=int(i))
         both = {**only, second: beside.ends}
         curve = bifurcation_curve(rig, start, vary=both, progress=progress)
-        found[_name(curve, first, value)] = curve
-    if not found:
+        curves[_name(curve, first, value)] = curve
+    if not curves:
         raise InputError(
             f"kind: no {kind} was found for {first} from {along.low} to {along.high}; choose "
             "another kind, or widen the range of the first parameter"
         )
-    return found
+    return curves
 
 
 def _name(curve: xr.Dataset, parameter: str, value: float) -> str:

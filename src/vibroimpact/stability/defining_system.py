@@ -55,9 +55,9 @@ class Defining(NamedTuple):
     @property
     def seen(self) -> _Array:
         """Components of (z, p, q) by which lengths and angles are measured, as in `Section`."""
-        found = np.ones(len(self.scale))
-        found[2 * self.plane.family.layout.masses : -2] = 0.0
-        return found
+        mask = np.ones(len(self.scale))
+        mask[2 * self.plane.family.layout.masses : -2] = 0.0
+        return mask
 
     def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
         """The orbit that y stands for, and the residual in scaled components."""

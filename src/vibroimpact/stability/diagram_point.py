@@ -71,45 +71,45 @@ def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Se
         return seen._replace(outputs=(math.nan,) * len(outputs))
     if not outputs:
         return seen
-    found = seen.held.found
-    start = engine_system(found.rig.system).state(found.state, found.excitation.phase)
+    motion = seen.held.motion
+    start = engine_system(motion.rig.system).state(motion.state, motion.excitation.phase)
     cycles = seen.kind.period or look.points
-    return seen._replace(outputs=computed(outputs, found.rig, start, cycles))
+    return seen._replace(outputs=computed(outputs, motion.rig, start, cycles))
 
 
 def _looked_at(held: Held, look: Look) -> Seen:
-    found = held.found
-    if found.status not in (Status.DONE, Status.NOT_SETTLED):
-        return _nothing(held, look, found.status)
-    rows = np.empty((0, lyapunov.SECTION + found.states.parts))
-    if not found.period:
-        kind, rows, status = _wandering(found, look)
-        if kind.returns and (orbit := approached(found, kind.returns)) is not None:
-            found = orbit  # on which it settles slowly
-    if found.period:
-        kind, _, _, status = judge_orbit(found, look.max_events)
+    motion = held.motion
+    if motion.status not in (Status.DONE, Status.NOT_SETTLED):
+        return _nothing(held, look, motion.status)
+    rows = np.empty((0, lyapunov.SECTION + motion.states.parts))
+    if not motion.period:
+        kind, rows, status = _wandering(motion, look)
+        if kind.returns and (orbit := approached(motion, kind.returns)) is not None:
+            motion = orbit  # on which it settles slowly
+    if motion.period:
+        kind, _, _, status = judge_orbit(motion, look.max_events)
         rows = rows[:0]
     if status is not Status.DONE:
         return _nothing(held, look, status)
     cycles = kind.period or look.points
     if look.section == "impacts":
-        points, status = _impacts(found, cycles, look.max_events)
+        points, status = _impacts(motion, cycles, look.max_events)
     else:
         if not len(rows):
-            status, rows = _followed(found, cycles, look.max_events)
+            status, rows = _followed(motion, cycles, look.max_events)
         points = rows[:cycles, lyapunov.SECTION :]
     if status is not Status.DONE:
         return _nothing(held, look, status)
     named = Status.NOT_SETTLED if kind.motion == "undecided" else Status.DONE
-    return Seen(held._replace(found=found), kind, points, named)
+    return Seen(held._replace(motion=motion), kind, points, named)
 
 
-def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
+def _wandering(motion: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
     """As `judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
     for longer in (1, *LONGER):
-        status, rows = _followed(found, longer * cycles, look.max_events, DISCARD)
-        kind = judge_sections(found, rows)
+        status, rows = _followed(motion, longer * cycles, look.max_events, DISCARD)
+        kind = judge_sections(motion, rows)
         weak = kind.motion == "undecided" and (kind.bounded or kind.exponents[0] > 0.0)
         if status is not Status.DONE or not weak:
             break
@@ -117,20 +117,20 @@ def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
 
 
 def _followed(
-    found: Settled, cycles: int, max_events: int, discard: int = 0
+    motion: Settled, cycles: int, max_events: int, discard: int = 0
 ) -> tuple[Status, _Array]:
-    return found.engine.sections(found.state.copy(), cycles, max_events, discard=discard)
+    return motion.engine.sections(motion.state.copy(), cycles, max_events, discard=discard)
 
 
-def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:
+def _impacts(motion: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:
     """Stop, phase of the forcing and velocity of each contact, as it begins."""
-    shaken = found.excitation
-    state, number, parts = found.state.copy(), 0, []
+    shaken = motion.excitation
+    state, number, parts = motion.state.copy(), 0, []
     outcome = 0
     while number < cycles and not outcome:
         events = np.empty((max_events + _ROOM, record.EVENT))
         number, count, outcome = batch.trajectory(
-            found.engine.vector,
+            motion.engine.vector,
             shaken.amplitude,
             shaken.frequency,
             shaken.phase,
@@ -153,6 +153,6 @@ def _nothing(held: Held, look: Look, status: Status) -> Seen:
     """Of a motion that was given up."""
     empty = np.full(2, np.nan)
     kind = Judgement("undecided", 0, empty, empty, status.advice)
-    states = held.found.states
+    states = held.motion.states
     width = point_width(look.section, states)
     return Seen(held, kind, np.empty((0, width)), status)

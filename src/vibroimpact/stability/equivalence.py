@@ -19,11 +19,11 @@ _SEEN = 5000
 """Cycles over which motions that did not settle are compared."""
 
 
-def image_of(found: Settled, max_events: int) -> Settled | None:
+def image_of(motion: Settled, max_events: int) -> Settled | None:
     """The mirror image, half a cycle later; None if there is none, or a limit is met on the way."""
-    status, state = later(found, found.state, 0.5, max_events)
-    image = found.states.mirror_image(state) if status is Status.DONE else None
-    return None if image is None else found._replace(state=image)
+    status, state = later(motion, motion.state, 0.5, max_events)
+    image = motion.states.mirror_image(state) if status is Status.DONE else None
+    return None if image is None else motion._replace(state=image)
 
 
 def mirrors(one: Settled, other: Settled, max_events: int) -> bool:
@@ -57,8 +57,8 @@ def distance(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
     return float(np.abs(shares[0] - shares[1]).max())
 
 
-def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
+def _displacements(motion: Settled, max_events: int) -> NDArray[np.float64]:
     """Displacements at the section over many cycles, sorted."""
-    status, rows = found.engine.sections(found.state.copy(), _SEEN, max_events)
+    status, rows = motion.engine.sections(motion.state.copy(), _SEEN, max_events)
     # Fewer if it is given up: then it is another motion than one that goes on.
     return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)

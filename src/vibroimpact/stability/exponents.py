@@ -159,7 +159,7 @@ def lyapunov_exponents(
         frequency = here.frequency
         kept = Averaged(cycles, states.parts, counts[r])
 
-        def told(done: int, _: int | None) -> None:
+        def count_done(done: int, _: int | None) -> None:
             tally[DONE] = done
 
         status = engine.grow(
@@ -170,7 +170,7 @@ def lyapunov_exponents(
             transient=transient,
             discard=DISCARD,
             count=counts[r],
-            progress=told,
+            progress=count_done,
         )
         tally[DONE] = steps
         if not kept.done:
@@ -189,7 +189,7 @@ def lyapunov_exponents(
     lyapunov.growth.prepare(
         *(engine.vector for _, engine in items)
     )  # once, before threads would queue
-    found = each(
+    motions = each(
         follow,
         items,
         steps=steps * len(items),
@@ -203,8 +203,8 @@ def lyapunov_exponents(
         return np.append(values, np.full(most - len(values), np.nan))
 
     rates = {
-        "exponents": [filled(f.exponents) for f in found],
-        "exponents_uncertainty": [filled(f.uncertainty) for f in found],
+        "exponents": [filled(f.exponents) for f in motions],
+        "exponents_uncertainty": [filled(f.uncertainty) for f in motions],
     }
     data = xr.Dataset(
         {
@@ -212,10 +212,10 @@ def lyapunov_exponents(
                 name: ((*dims, "exponent"), np.reshape(values, (*shape, most)))
                 for name, values in rates.items()
             },
-            "effective_damping": (dims, np.reshape([f.damping for f in found], shape)),
-            "exponents_cycles": (dims, np.reshape([f.cycles for f in found], shape)),
-            "settling": (dims, np.reshape([f.settling for f in found], shape)),
-            "status": (dims, np.reshape([int(f.status) for f in found], shape)),
+            "effective_damping": (dims, np.reshape([f.damping for f in motions], shape)),
+            "exponents_cycles": (dims, np.reshape([f.cycles for f in motions], shape)),
+            "settling": (dims, np.reshape([f.settling for f in motions], shape)),
+            "status": (dims, np.reshape([int(f.status) for f in motions], shape)),
         },
         coords={"rig": names, "frequency": grid, **{one.name: one.values for one in every}},
     )
@@ -228,9 +228,9 @@ def lyapunov_exponents(
         "max_events": max_events,
     }
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters, varied=every)
-    if count := sum(f.settling for f in found):
+    if count := sum(f.settling for f in motions):
         warn_of_result(
-            f"{count} of {len(found)} motions were still converging to a periodic motion after "
+            f"{count} of {len(motions)} motions were still converging to a periodic motion after "
             f"{transient + DISCARD} cycles, so their exponents are not those of the periodic "
             f"motion; pass a transient larger than {transient}; `settling` marks these motions"
         )

@@ -37,9 +37,9 @@ VALUE = -1
 @cache
 def _components(first: int, size: int) -> _Array:
     """1 for so many components of a point, the first ones, and for its parameter; else 0."""
-    found = np.zeros(size)
-    found[:first] = found[VALUE] = 1.0
-    return found
+    mask = np.zeros(size)
+    mask[:first] = mask[VALUE] = 1.0
+    return mask
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ class Section:
 
     def scaled(self, change: _Array) -> _Array:
         """Return a change of a point in scaled components, of which lengths count those `seen`."""
-        found: _Array = change / self.scale * self.seen
-        return found
+        scaled_change: _Array = change / self.scale * self.seen
+        return scaled_change
 
     @property
     def period(self) -> int:
@@ -138,12 +138,12 @@ class Orbit:
     @cached_property
     def contacts(self) -> tuple[int, ...]:
         """Contacts with each stop in a period; of one mass with the right and the left one."""
-        found = tuple(int(count) for count in self.facts[section_map.CONTACTS :])
+        counts = tuple(int(count) for count in self.facts[section_map.CONTACTS :])
         if not self.section.mirror:
-            return found
+            return counts
         # The other half of a motion that is its own mirror image.
         partners = self.section.family.layout.partners
-        return tuple(count + found[other] for count, other in zip(found, partners, strict=True))
+        return tuple(count + counts[other] for count, other in zip(counts, partners, strict=True))
 
     @property
     def own(self) -> _Array:
@@ -154,8 +154,8 @@ class Orbit:
     @cached_property
     def map_multipliers(self) -> NDArray[np.complex128]:
         """Eigenvalues of the map's derivative, the largest first."""
-        found = np.linalg.eigvals(self.own).astype(complex)
-        return found[np.argsort(-np.abs(found), kind="stable")]
+        eigenvalues = np.linalg.eigvals(self.own).astype(complex)
+        return eigenvalues[np.argsort(-np.abs(eigenvalues), kind="stable")]
 
     @property
     def multipliers(self) -> NDArray[np.complex128]:
@@ -246,7 +246,7 @@ def corrected(
     rig = section.family.flow_rig(float(point[VALUE]))
     for _ in range(_LINES):
         fam = section.family.near(float(point[VALUE]))
-        found = _blank(section, point, mode)
+        solution = _blank(section, point, mode)
         outcome = orbit.correct(
             rig,
             fam.base,
@@ -257,37 +257,37 @@ def corrected(
             MAX_EVENTS,
             section.scale,
             normal * section.seen,
-            found.point,
-            found.facts,
-            found.carried,
-            found.slope,
+            solution.point,
+            solution.facts,
+            solution.carried,
+            solution.slope,
         )
         settled = Status(outcome) is Status.DONE
         if (not settled and not fam.straight) or (settled and fam.one_flow):
             break
-        there = fam.flow_rig(found.value)
+        there = fam.flow_rig(solution.value)
         # From bumpers that are apart to such that overlap, it begins again from where it was.
         carried = carries(rig, there)
-        moved = abs(found.value - float(point[VALUE]))
+        moved = abs(solution.value - float(point[VALUE]))
         touches = fam.straight or moved <= _TOUCHED * section.scale[VALUE]
         if carried and touches:
             break
         if carried:
-            point = found.point
+            point = solution.point
         rig = there
     else:
         if not section.family.straight:
-            return Status.NOT_SETTLED, found
-    return Status(outcome), found
+            return Status.NOT_SETTLED, solution
+    return Status(outcome), solution
 
 
 def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orbit, _Array]:
     """The map and its derivative at a point that need not be fixed, and the point's image."""
-    found = _blank(section, point, mode)
-    image = found.point.copy()
-    fam = section.family.near(found.value)
+    trial = _blank(section, point, mode)
+    image = trial.point.copy()
+    fam = section.family.near(trial.value)
     outcome = orbit.evaluate(
-        fam.flow_rig(found.value),
+        fam.flow_rig(trial.value),
         fam.base,
         fam.direction,
         fam.phase,
@@ -295,57 +295,57 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
         section.mirror,
         MAX_EVENTS,
         section.scale,
-        found.point,
-        found.facts,
-        found.carried,
-        found.slope,
+        trial.point,
+        trial.facts,
+        trial.carried,
+        trial.slope,
         image,
     )
-    return Status(outcome), found, image
+    return Status(outcome), trial, image
 
 
-def is_fixed(section: Section, found: Orbit, tolerance: float) -> bool:
+def is_fixed(section: Section, periodic_orbit: Orbit, tolerance: float) -> bool:
     """Whether an orbit is fixed under another map, to a scaled tolerance."""
-    status, image, _ = evaluated(section, found.point, found.mode)
+    status, image, _ = evaluated(section, periodic_orbit.point, periodic_orbit.mode)
     return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
 
 
-def margin_of(found: Orbit) -> float:
+def margin_of(periodic_orbit: Orbit) -> float:
     """Scaled distance from grazing: see `engine.one_mass.margin`."""
-    section = found.section
+    section = periodic_orbit.section
     value: float = orbit.grazing_margin(
-        section.family.system(found.value),
+        section.family.system(periodic_orbit.value),
         section.family.phase,
         section.period,
         MAX_EVENTS,
-        found.point,
-        found.facts,
+        periodic_orbit.point,
+        periodic_orbit.facts,
     )
     return value / float(section.scale[0])
 
 
-def beyond(found: Orbit, what: str, where: str) -> str:
+def beyond(periodic_orbit: Orbit, what: str, where: str) -> str:
     """Why nothing may be found beyond the last orbit of a curve, in words."""
-    margin = abs(margin_of(found))
+    margin = abs(margin_of(periodic_orbit))
     grazes = what != "grazing" and margin < _GRAZES
-    told = (
+    detail = (
         f"the orbit nearly grazes a stop, by {margin:.1g} of its size"
         if grazes
         else "at the smallest step"
     )
-    return f"no {what} could be found beyond {where} ({told})"
+    return f"no {what} could be found beyond {where} ({detail})"
 
 
-def vector_of(found: Orbit) -> _Array:
+def vector_of(periodic_orbit: Orbit) -> _Array:
     """The state at the section as the engine's vector."""
-    mode = found.mode
-    return found.section.family.layout.vector(found.point[:VALUE], mode)
+    mode = periodic_orbit.mode
+    return periodic_orbit.section.family.layout.vector(periodic_orbit.point[:VALUE], mode)
 
 
-def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
+def seen_at(periodic_orbit: Orbit, phase: float) -> tuple[_Array, float] | None:
     """Point and mode of the same motion at another forcing phase; None if a limit is met there."""
-    section = found.section
-    system = section.family.system(found.value)
+    section = periodic_orbit.section
+    system = section.family.system(periodic_orbit.value)
     amplitude, frequency = section.family.forcing
     # Of its numbers, since the family's own forcing is another where a second parameter varies.
     here = section.family.excitation.replace(
@@ -353,37 +353,37 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
         frequency=float(system[frequency]),
     )
     ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
-    state = vector_of(found)
+    state = vector_of(periodic_orbit)
     if ahead > 0.0:
         status, state = PreparedRig(Rig(section.family.rig.system, here), system).propagate(
             state, ahead, MAX_EVENTS
         )
         if status is not Status.DONE:
             return None
-    point = np.append(section.family.layout.point(state), found.value)
+    point = np.append(section.family.layout.point(state), periodic_orbit.value)
     return point, float(state[MODE])
 
 
-def at_phase(found: Orbit, phase: float) -> Orbit | None:
+def at_phase(periodic_orbit: Orbit, phase: float) -> Orbit | None:
     """The same orbit seen at another section, if Newton's method confirms it."""
-    section = found.section
+    section = periodic_orbit.section
     if phase == section.family.phase:
-        return found
-    seen = seen_at(found, phase)
+        return periodic_orbit
+    seen = seen_at(periodic_orbit, phase)
     if seen is None:
         return None
     status, there = corrected(section.turned(phase), *seen)
     return there if status is Status.DONE else None
 
 
-def images(found: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
+def images(periodic_orbit: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
     """Points and modes of an orbit's sections a cycle apart; if `mirrored`, its mirror image's too.
 
     Those of an orbit that is its own mirror image are half a cycle apart, each mirrored: as many as
     its period has cycles, an odd number.
     """
-    section = found.section
-    point, mode = found.point, found.mode
+    section = periodic_orbit.section
+    point, mode = periodic_orbit.point, periodic_orbit.mode
     yield point, mode
     halves = mirrored or section.mirror
     one = Section(section.family, 1, halves, section.scale)

@@ -61,16 +61,16 @@ class InContact(Branch):
         # What the frequency gains by a longer way, in contact.
         pace = float(here.tangent[VALUE] * self.scale[VALUE])
         while True:
-            found = self.stepped(here, middle)
-            if found is None or not (flies(found) or found.contacts == here.orbit.contacts):
+            orbit = self.stepped(here, middle)
+            if orbit is None or not (flies(orbit) or orbit.contacts == here.orbit.contacts):
                 return super().corner(here, length)
             before = bad - good
-            if flies(found):
+            if flies(orbit):
                 bad = middle
             else:
                 if middle > good:
-                    pace = (found.value - last.orbit.value) / (middle - good)
-                good, last = middle, self._after(here, found)
+                    pace = (orbit.value - last.orbit.value) / (middle - good)
+                good, last = middle, self._after(here, orbit)
             if bad - good <= close:
                 break
             middle = 0.5 * (good + bad)

@@ -108,17 +108,17 @@ def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] 
     for aside in _ASIDE:
         for sense in (1.0, -1.0):
             point = guess + sense * aside * section.held * section.scale
-            status, found = corrected(section, point, mode)
-            if status is Status.DONE and fewer(found, last) and margin_of(found) > 0.0:
-                found = _closest(found, sense)
+            status, orbit = corrected(section, point, mode)
+            if status is Status.DONE and fewer(orbit, last) and margin_of(orbit) > 0.0:
+                orbit = _closest(orbit, sense)
                 # Of a poor guess both sides may be clear, or it leads to another branch.
                 missed, gone, way = (
                     section.scaled(change)
-                    for change in (found.point - guess, found.point - last.point, ahead)
+                    for change in (orbit.point - guess, orbit.point - last.point, ahead)
                 )
                 nearer = missed @ missed < gone @ gone
-                if margin_of(found) <= _GRAZES and nearer and gone @ way > 0.0:
-                    return found, sense
+                if margin_of(orbit) <= _GRAZES and nearer and gone @ way > 0.0:
+                    return orbit, sense
     return None
 
 
@@ -128,13 +128,13 @@ def _closest(clear: Orbit, sense: float) -> Orbit:
     step = 1e-8 * section.scale[VALUE]  # towards the grazing
     for _ in range(_HALVINGS):
         point = clear.point - sense * step * clear.section.held
-        status, found = corrected(section, point, clear.mode)
-        left = margin_of(found) if status is Status.DONE else math.nan
-        if not (found.contacts == clear.contacts and 0.0 <= left < margin):
+        status, orbit = corrected(section, point, clear.mode)
+        left = margin_of(orbit) if status is Status.DONE else math.nan
+        if not (orbit.contacts == clear.contacts and 0.0 <= left < margin):
             step *= 0.5
             continue
         rise = (margin - left) / step
-        clear, margin = found, left
+        clear, margin = orbit, left
         if margin <= _CLOSE:
             break
         step = margin / rise
@@ -173,25 +173,25 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
             if not abs(missed) < w:
                 return None
             guess = guess + _beside(grazing, missed * second) - grazing.point
-        status, found = corrected(section, guess, mode, along)
-        return found if status is Status.DONE and found.contacts == hit.contacts else None
+        status, orbit = corrected(section, guess, mode, along)
+        return orbit if status is Status.DONE and orbit.contacts == hit.contacts else None
 
-    found = None
+    orbit = None
     for w in _W:
-        found = corrected_at(w, _beside(grazing, w * first + w * w * second))
-        if found is not None:
+        orbit = corrected_at(w, _beside(grazing, w * first + w * w * second))
+        if orbit is not None:
             break
-    if found is None:
+    if orbit is None:
         return None
     seen = [(0.0, grazing.point)]
-    side = _side_of_fold(found)
-    last, way = found, (found.point - grazing.point) / section.scale
+    side = _side_of_fold(orbit)
+    last, way = orbit, (orbit.point - grazing.point) / section.scale
     # A fold close to the grazing is found later, from orbits on both sides of it.
-    while found is not None and _side_of_fold(found) == side:
-        last, way = found, (found.point - seen[-1][1]) / section.scale
-        seen.append((math.sqrt(max(-margin_of(found), 0.0)), found.point))
+    while orbit is not None and _side_of_fold(orbit) == side:
+        last, way = orbit, (orbit.point - seen[-1][1]) / section.scale
+        seen.append((math.sqrt(max(-margin_of(orbit), 0.0)), orbit.point))
         w = _GROWN * seen[-1][0]
-        found = corrected_at(w, _at(seen[-3:], w)) if 0.0 < w < _FAR else None
+        orbit = corrected_at(w, _at(seen[-3:], w)) if 0.0 < w < _FAR else None
     return last, last.tangent(way)
 
 

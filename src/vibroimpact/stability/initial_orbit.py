@@ -63,18 +63,18 @@ def first_orbit(
     if start is None and not fam.rig.system.stops:
         start = states.read(None)  # there is one orbit, however long motions take to it
     if start is None:
-        found = _from_rest(fam, span, period)
+        orbit = _from_rest(fam, span, period)
     else:
         state = states.read(start)
         if state.phase is not None:
             fam = fam.with_phase(state.phase)
         parts, mode = states.near(state)
         point = np.append(parts, fam.value)
-        status, found = _least(fam, span, period or 1, point, mode)
+        status, orbit = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:
-            raise _no_orbit(period or 1, status, found)
-    found = placed_at_rest(found)
-    return symmetric_if_so(found) if symmetric else found
+            raise _no_orbit(period or 1, status, orbit)
+    orbit = placed_at_rest(orbit)
+    return symmetric_if_so(orbit) if symmetric else orbit
 
 
 def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
@@ -86,14 +86,14 @@ def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
         )
     return InputError(
         f"start: Newton's method finds no orbit of period {period} near this state "
-        f"({told(status)}); pass a start closer to an orbit, or another period"
+        f"({reason_of(status)}); pass a start closer to an orbit, or another period"
     )
 
 
-def _neutral(found: Orbit) -> bool:
+def _neutral(orbit: Orbit) -> bool:
     """Whether P' - 1 is singular at a point: a disturbance of state stays as it is."""
-    moving = 2 * found.section.family.layout.masses
-    values = np.linalg.svd(found.jacobian[:moving, :moving], compute_uv=False)
+    moving = 2 * orbit.section.family.layout.masses
+    values = np.linalg.svd(orbit.jacobian[:moving, :moving], compute_uv=False)
     return bool(values[-1] <= _SINGULAR)
 
 
@@ -102,19 +102,19 @@ def _least(
 ) -> tuple[Status, Orbit]:
     """Newton's method from a point; the orbit with its least period."""
     scale = scales(fam, span, point)
-    status, found = corrected(Section(fam, period, False, scale), point, mode)
+    status, orbit = corrected(Section(fam, period, False, scale), point, mode)
     told_by_none = scale[0] == _least_size(fam) or not fam.rig.system.stops
     if status is Status.NOT_SETTLED and told_by_none:
         # Neither the start nor a gap states the motion's size, which bounds a step; without stops
         # the map is linear, and a step of any length is right.
         for factor in _LARGER:
             wide = scale * np.append(np.full(len(scale) - 1, factor), 1.0)
-            status, found = corrected(Section(fam, period, False, wide), point, mode)
+            status, orbit = corrected(Section(fam, period, False, wide), point, mode)
             if status is Status.DONE:
-                section = Section(fam, period, False, scales(fam, span, found.point))
-                status, found = corrected(section, found.point, found.mode)
+                section = Section(fam, period, False, scales(fam, span, orbit.point))
+                status, orbit = corrected(section, orbit.point, orbit.mode)
                 break
-    return status, reduced(found) if status is Status.DONE else found
+    return status, reduced(orbit) if status is Status.DONE else orbit
 
 
 def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Orbit:
@@ -136,14 +136,14 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     least, failed, status = None, None, Status.NOT_SETTLED
     for vector in [rest.state] if repeats else _returns(rest, begin, period):
         point = np.append(states.point(vector), fam.value)
-        outcome, found = _least(fam, span, period, point, float(vector[MODE]))
+        outcome, orbit = _least(fam, span, period, point, float(vector[MODE]))
         if outcome is not Status.DONE:
-            status, failed = outcome, found
+            status, failed = outcome, orbit
             continue
         # A close return over several cycles may be due to an orbit of fewer.
-        if least is None or found.section.period == period:
-            least = found
-        if repeats or found.section.period == period:
+        if least is None or orbit.section.period == period:
+            least = orbit
+        if repeats or orbit.section.period == period:
             break
     if least is None:
         raise _no_orbit(period, status, failed)
@@ -177,47 +177,47 @@ def _returns(rest: Settled, begin: _Array, period: int) -> list[_Array]:
     return [sections[i] for i in best]
 
 
-def _tell_another(rest: Settled, found: Orbit) -> None:
+def _tell_another(rest: Settled, orbit: Orbit) -> None:
     """Warn if an orbit that was sought where the motion from rest goes is another motion."""
-    there = vector_of(found)
+    there = vector_of(orbit)
     if (
-        rest.period == found.section.period
+        rest.period == orbit.section.period
         and state_distance(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
     ):
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"
     warn_of_result(
-        f"the computed orbit has period {found.section.period} and is not the motion from rest, "
+        f"the computed orbit has period {orbit.section.period} and is not the motion from rest, "
         f"which {it}; to compute another orbit, pass a start near that orbit"
     )
 
 
-def told(status: Status) -> str:
+def reason_of(status: Status) -> str:
     """Why a correction failed, in words."""
     if status is Status.NOT_SETTLED:
         return "it does not converge"
     return status.advice
 
 
-def reduced(found: Orbit) -> Orbit:
+def reduced(orbit: Orbit) -> Orbit:
     """The orbit with its least period."""
-    section = found.section
+    section = orbit.section
     for count in range(1, section.count):
         simpler = section.simpler(count, mirror=False)
-        if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
-            status, simple = corrected(simpler, found.point, found.mode)
-            return simple if status is Status.DONE else found
-    return found
+        if section.count % count == 0 and is_fixed(simpler, orbit, 1e-9):
+            status, simple = corrected(simpler, orbit.point, orbit.mode)
+            return simple if status is Status.DONE else orbit
+    return orbit
 
 
-def symmetric_if_so(found: Orbit) -> Orbit:
+def symmetric_if_so(orbit: Orbit) -> Orbit:
     """The orbit as a fixed point of the mirrored map, if it is its own mirror image."""
-    section = found.section
-    if not own_mirror(found, 1e-9):
-        return found
+    section = orbit.section
+    if not own_mirror(orbit, 1e-9):
+        return orbit
     half = section.simpler(section.count, mirror=True)
-    status, mirrored = corrected(half, found.point, found.mode)
-    return mirrored if status is Status.DONE else found
+    status, mirrored = corrected(half, orbit.point, orbit.mode)
+    return mirrored if status is Status.DONE else orbit
 
 
 def _least_size(fam: Family) -> float:

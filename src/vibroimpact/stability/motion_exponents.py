@@ -24,44 +24,44 @@ _TURNING = 8
 """Periods in which disturbances turn into their directions, where the second one is lost."""
 
 
-def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
+def judge_orbit(motion: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
     """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
-    parts = found.states.parts
+    parts = motion.states.parts
     carried = np.empty((parts, parts))
     damping = np.empty(1)
-    state = found.state.copy()
+    state = motion.state.copy()
     rates = []
     for _ in range(2):  # the second time shows how far rounding and the rest of a transient go
         outcome = lyapunov.monodromy(
-            found.engine.vector,
-            found.excitation.amplitude,
-            found.excitation.frequency,
-            found.excitation.phase,
+            motion.engine.vector,
+            motion.excitation.amplitude,
+            motion.excitation.frequency,
+            motion.excitation.phase,
             state,
-            found.period,
+            motion.period,
             max_events,
             carried,
             damping,
         )
         if outcome != Status.DONE:
-            nothing = np.full(2 * found.states.masses, np.nan)
-            told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
-            return told, math.nan, 0, Status(outcome)
-        rates.append(_rates(found.states, carried) / found.period)
+            nothing = np.full(2 * motion.states.masses, np.nan)
+            judgement = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
+            return judgement, math.nan, 0, Status(outcome)
+        rates.append(_rates(motion.states, carried) / motion.period)
     first, second = rates
     if np.isnan(first[1]) or np.isnan(second[1]):
-        first[1] = second[1] = _second(found, state, max_events)
+        first[1] = second[1] = _second(motion, state, max_events)
     finite = np.isfinite(first) & np.isfinite(second)
     spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(len(first))))
-    largest = math.exp(min(first[0] * found.period, 700.0))
+    largest = math.exp(min(first[0] * motion.period, 700.0))
     kind = Judgement(
         "periodic",
-        found.period,
+        motion.period,
         first,
         spread,
-        f"{repeats(found.period)}; largest multiplier {largest:.6g} in modulus",
+        f"{repeats(motion.period)}; largest multiplier {largest:.6g} in modulus",
     )
-    return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
+    return kind, float(damping[0]) / motion.period, 2 * motion.period, Status.DONE
 
 
 def _rates(states: EngineSystem, carried: _Array) -> _Array:
@@ -74,8 +74,8 @@ def _rates(states: EngineSystem, carried: _Array) -> _Array:
     if states.system.by_mass:
         moduli = np.sort(np.abs(np.linalg.eigvals(carried)))[::-1]
         with np.errstate(divide="ignore"):
-            found: _Array = np.log(moduli[: 2 * states.masses])
-        return found
+            log_moduli: _Array = np.log(moduli[: 2 * states.masses])
+        return log_moduli
     touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
     memory = ONE_MASS.of_point.memory()
     kept = [0, 1, *touched, *([memory] if carried[memory].any() else [])]
@@ -87,23 +87,23 @@ def _rates(states: EngineSystem, carried: _Array) -> _Array:
     return logarithms
 
 
-def _second(found: Settled, state: _Array, max_events: int) -> float:
+def _second(motion: Settled, state: _Array, max_events: int) -> float:
     """Second exponent per cycle of an orbit whose second multiplier is lost in rounding.
 
     It is followed cycle by cycle, as for a motion that is not periodic: strong damping leaves a
     number, and a mass that sticks, or comes to rest, minus infinity.
     """
-    status, rows = found.engine.sections(
+    status, rows = motion.engine.sections(
         state.copy(),
-        found.period,
+        motion.period,
         max_events,
-        discard=_TURNING * found.period,
+        discard=_TURNING * motion.period,
     )
     return float(rows[:, lyapunov.SECOND].mean()) if status == Status.DONE else math.nan
 
 
 def judge_wandering(
-    found: Settled,
+    motion: Settled,
     state: _Array,
     cycles: int,
     max_events: int,
@@ -116,19 +116,19 @@ def judge_wandering(
     judgement, damping, cycles, status
         The damping per unit mass is the integral over a cycle, on average.
     """
-    status, rows = found.engine.sections(
+    status, rows = motion.engine.sections(
         state, cycles, max_events, discard=DISCARD, progress=progress
     )
     damping = float(rows[:, lyapunov.DISSIPATION].mean()) if len(rows) else math.nan
-    return judge_sections(found, rows), damping, len(rows), status
+    return judge_sections(motion, rows), damping, len(rows), status
 
 
-def judge_sections(found: Settled, rows: _Array) -> Judgement:
+def judge_sections(motion: Settled, rows: _Array) -> Judgement:
     """Judge a motion by its sections, and the growth of disturbances between them."""
     # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
-    several = found.states.system.by_mass
+    several = motion.states.system.by_mass
     return judge(
         rows[:, : lyapunov.DISSIPATION],
-        rows[:, lyapunov.SECTION :] / section_sizes(found.engine),
+        rows[:, lyapunov.SECTION :] / section_sizes(motion.engine),
         None if several else rows[:, lyapunov.DISSIPATION],
     )

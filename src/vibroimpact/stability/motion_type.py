@@ -150,17 +150,19 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
         return Judgement("undecided", 0, mean, uncertainty, f"{grown}: the motion grows, {rise}")
     bounded = max(abs(whole), abs(half)) <= margin
     if bounded and apart and whole < 0.0:
-        told = f"{grown}: disturbances still decay slowly"
-        return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
+        evidence = f"{grown}: disturbances still decay slowly"
+        return Judgement("undecided", 0, mean, uncertainty, evidence, returns(section))
     if bounded and damping is not None and shrinks_as_damped(logarithms, damping):
-        told = (
+        evidence = (
             f"{grown}: as in a quasi-periodic motion, but no quasi-periodic motion exists if the "
             "bumpers have no memory of the previous cycle; the motion settles slowly"
         )
-        return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
+        return Judgement("undecided", 0, mean, uncertainty, evidence, returns(section))
     if bounded and not abs(mean[0]) + CONSISTENT * uncertainty[0] <= WEAK:
-        told = f"{grown}: a quasi-periodic or a weakly chaotic motion, which more cycles tell apart"
-        return Judgement("undecided", 0, mean, uncertainty, told, bounded=True)
+        evidence = (
+            f"{grown}: a quasi-periodic or a weakly chaotic motion, which more cycles tell apart"
+        )
+        return Judgement("undecided", 0, mean, uncertainty, evidence, bounded=True)
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic",

@@ -70,15 +70,18 @@ def orbit(
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
     fam = family(rig, "frequency")
-    found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
-    data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
-    multipliers = found.multipliers
+    periodic_orbit = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+    data = describe_motion(settled_on(periodic_orbit), samples, 1, 1, MAX_EVENTS)
+    multipliers = periodic_orbit.multipliers
     signs = fam.layout.signs[: fam.states, np.newaxis]
     data = data.assign(
-        monodromy=(("component_after", "component_before"), signs * found.monodromy * signs.T),
+        monodromy=(
+            ("component_after", "component_before"),
+            signs * periodic_orbit.monodromy * signs.T,
+        ),
         multiplier_real=("multiplier", multipliers.real),
         multiplier_imag=("multiplier", multipliers.imag),
-        residual=float(found.facts[section_map.RESIDUAL]),
+        residual=float(periodic_orbit.facts[section_map.RESIDUAL]),
     )
     data.attrs["contacts"] = _sequence(data)
     data.attrs["created_by"] = "vibroimpact.orbit"

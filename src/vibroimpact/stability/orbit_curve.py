@@ -119,27 +119,27 @@ class Branch:
             length = (bound - here.orbit.value) / (here.tangent[VALUE] * self.scale[VALUE])
             aim, normal = predicted(self, here, length), section.held
             aim[VALUE] = bound
-        status, found = corrected(section, aim, mode, normal)
+        status, orbit = corrected(section, aim, mode, normal)
         if (
             status is not Status.DONE
-            or is_other_curve(self, found.point, aim, length)
-            or is_of_simpler_map(found)
+            or is_other_curve(self, orbit.point, aim, length)
+            or is_of_simpler_map(orbit)
         ):
             return None
-        return placed_at_rest(found)
+        return placed_at_rest(orbit)
 
     def step(self, here: Station, length: float) -> tuple[Station | None, bool]:
         """See `Path`."""
-        found = self.stepped(here, length)
-        if found is None:
+        orbit = self.stepped(here, length)
+        if orbit is None:
             return None, False
-        if found.contacts != here.orbit.contacts:
+        if orbit.contacts != here.orbit.contacts:
             return None, True
-        return self._after(here, found), False
+        return self._after(here, orbit), False
 
-    def _after(self, here: Station, found: Orbit) -> Station:
-        arclength = here.arclength + distance(self, found.point, here.y)
-        return Station(found, found.tangent(here.tangent), arclength, here.piece)
+    def _after(self, here: Station, orbit: Orbit) -> Station:
+        arclength = here.arclength + distance(self, orbit.point, here.y)
+        return Station(orbit, orbit.tangent(here.tangent), arclength, here.piece)
 
     def end(self, here: Station, there: Station) -> tuple[list[Station], str] | None:
         """See `Path`."""
@@ -197,10 +197,10 @@ class Branch:
         point = predicted(self, here, share)
         point[VALUE] = value
         mode = here.orbit.mode
-        status, found = corrected(here.orbit.section, point, mode)
-        if status is not Status.DONE or found.contacts != here.orbit.contacts:
+        status, orbit = corrected(here.orbit.section, point, mode)
+        if status is not Status.DONE or orbit.contacts != here.orbit.contacts:
             return []
-        return [self._after(here, found)]
+        return [self._after(here, orbit)]
 
     def _returned(self, here: Station, there: Station) -> bool:
         """Whether a step has passed the first orbit, seen a whole number of cycles later or not."""
@@ -215,8 +215,8 @@ class Branch:
         mode = there.orbit.mode
 
         def solved(guess: _Array, normal: _Array) -> _Array | None:
-            status, found = corrected(section, guess, mode, normal)
-            return found.point if status is Status.DONE else None
+            status, orbit = corrected(section, guess, mode, normal)
+            return orbit.point if status is Status.DONE else None
 
         return returned(self, here, there, self.marks[phase], solved)
 
@@ -229,7 +229,7 @@ class Branch:
         status, seen, _ = evaluated(turned, *start)
         if status is not Status.DONE:
             return []
-        found = []
+        marks = []
         for image, mode in images(seen, mirrored=False):
             status, orbit, _ = evaluated(turned, image, mode)
             if status is not Status.DONE:
@@ -237,17 +237,17 @@ class Branch:
             # The parameter is the same for all of them, and so is its sense.
             tangent = orbit.tangent(turned.held)
             sense = math.copysign(1.0, tangent[VALUE] * self.first.tangent[VALUE])
-            found.append((image, sense * tangent))
-        return found
+            marks.append((image, sense * tangent))
+        return marks
 
     def in_other_coordinates(self, here: Station) -> Station | None:
         """See `Path`: at another section, for where an event falls on it there is a corner."""
         for number in range(here.phases_tried, len(PHASES)):
-            found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
-            if found is None or found.contacts != here.orbit.contacts:
+            orbit = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
+            if orbit is None or orbit.contacts != here.orbit.contacts:
                 continue
-            tangent = found.tangent(found.section.held * math.copysign(1.0, here.tangent[VALUE]))
-            return Station(found, tangent, here.arclength, here.piece, phases_tried=number + 1)
+            tangent = orbit.tangent(orbit.section.held * math.copysign(1.0, here.tangent[VALUE]))
+            return Station(orbit, tangent, here.arclength, here.piece, phases_tried=number + 1)
         return None
 
     def lost(self, here: Station) -> str:
@@ -288,9 +288,9 @@ class Branch:
                 if grazing:
                     break
                 return []  # the step failed for another reason
-            found = self.stepped(here, middle)
-            if found is not None and found.contacts == contacts:
-                good, last = middle, found
+            orbit = self.stepped(here, middle)
+            if orbit is not None and orbit.contacts == contacts:
+                good, last = middle, orbit
             else:
                 bad = middle
         if good > 0.0:
@@ -317,11 +317,11 @@ class Branch:
         good, bad, last, other = 0.0, length, here.orbit, self.stepped(here, length)
         while bad - good > _REST:
             middle = 0.5 * (good + bad)
-            found = self.stepped(here, middle)
-            if found is not None and found.contacts == here.orbit.contacts:
-                good, last = middle, found
+            orbit = self.stepped(here, middle)
+            if orbit is not None and orbit.contacts == here.orbit.contacts:
+                good, last = middle, orbit
             else:
-                bad, other = middle, found
+                bad, other = middle, orbit
         if other is None or not rests(other) or other.contacts == last.contacts:
             return None
         there = self._after(here, other)
@@ -350,12 +350,12 @@ class Branch:
             along = sign * other.tangent(tangent)
             for reach in _RESTART:
                 guess = last.point + reach * along * self.scale
-                status, found = corrected(last.section, guess, mode, along)
-                away = distance(self, found.point, last.point)
-                if status is Status.DONE and found.contacts != contacts and away <= 3.0 * reach:
+                status, orbit = corrected(last.section, guess, mode, along)
+                away = distance(self, orbit.point, last.point)
+                if status is Status.DONE and orbit.contacts != contacts and away <= 3.0 * reach:
                     arclength = before.arclength + away
-                    there = Station(found, found.tangent(along), arclength, before.piece + 1)
-                    if found.contacts == other.contacts:
+                    there = Station(orbit, orbit.tangent(along), arclength, before.piece + 1)
+                    if orbit.contacts == other.contacts:
                         return there
                     elsewhere = elsewhere or there
             if elsewhere is not None:
@@ -376,9 +376,9 @@ class Branch:
             length = good + share * (target - good)
             if not good < length < good + 1e-6:
                 continue
-            found = self.stepped(here, length)
-            if found is not None and found.contacts == last.contacts:
-                return found, length
+            orbit = self.stepped(here, length)
+            if orbit is not None and orbit.contacts == last.contacts:
+                return orbit, length
         return last, good
 
 

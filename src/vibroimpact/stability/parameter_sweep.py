@@ -32,7 +32,7 @@ _SOUND = (Status.DONE, Status.NOT_SETTLED)
 class Held(NamedTuple):
     """Where a motion went at one value, and what was measured of it there."""
 
-    found: Settled
+    motion: Settled
     measured: HoldRows
 
 
@@ -45,14 +45,14 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
         If the rig has no such parameter, cannot have such a value, or is undamped at resonance.
     """
     varied.read(rig)  # refuses what the rig does not have
-    found = [varied.vary(rig, float(value)) for value in values]
-    for one in found:
+    rigs = [varied.vary(rig, float(value)) for value in values]
+    for one in rigs:
         engine_system(one.system).check_bounded(one)
         shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
             field = field_of(varied.name)
             raise InputError(f"{field}[0]: the {varied.name} is 0; pass a value greater than 0")
-    return found
+    return rigs
 
 
 def stepped(
@@ -85,10 +85,10 @@ def stepped(
     for rig in every:
         if tally[1]:
             raise Stopped
-        going_on = carry and before is not None and before.found.status in _SOUND
+        going_on = carry and before is not None and before.motion.status in _SOUND
         if going_on and before is not None:
-            state = before.found.state
-            if rig.system != before.found.rig.system:
+            state = before.motion.state
+            if rig.system != before.motion.rig.system:
                 state = nearest_state(rig, state)
         elif start is None:
             state = prepare(rig).state()
@@ -103,8 +103,8 @@ def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     engine = prepare(rig)
     row, reached = engine.dwell(state, settling)
     status = Status(int(engine.states.judged(row.status, row.peak_displacement)))
-    found = Settled(engine, reached, int(row.period), int(row.cycles), status)
-    return Held(found, row)
+    motion = Settled(engine, reached, int(row.period), int(row.cycles), status)
+    return Held(motion, row)
 
 
 def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: int) -> list[_Array]:
@@ -113,7 +113,7 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
     shakes it slowly.
     """
-    sizes = [_size(one) for one in met if one.found.status in _SOUND]
+    sizes = [_size(one) for one in met if one.motion.status in _SOUND]
     gaps = [law.gap for rig in every for law in rig.system.stop_laws.values()]
     size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)
     omega = float(np.median([rig.periodic.angular_frequency for rig in every]))
@@ -123,5 +123,5 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
 
 def _size(held: Held) -> float:
     """Return the largest displacement of all masses (m)."""
-    measured = held.found.states.measured(held.measured.array, ())
+    measured = held.motion.states.measured(held.measured.array, ())
     return float(np.max(measured["peak_displacement"][1]))

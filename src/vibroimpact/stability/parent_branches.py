@@ -40,16 +40,16 @@ def half_plus(orbit: Orbit) -> float:
         return float(np.linalg.det(orbit.carried + np.eye(len(orbit.carried))))
 
 
-def is_of_simpler_map(found: Orbit) -> bool:
+def is_of_simpler_map(orbit: Orbit) -> bool:
     """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
-    return found.missed is not None and found.missed[0] <= _SLID
+    return orbit.missed is not None and orbit.missed[0] <= _SLID
 
 
-def simplest(found: Orbit) -> Orbit:
+def simplest(orbit: Orbit) -> Orbit:
     """An orbit as that of the simplest map whose fixed point it is."""
-    while is_of_simpler_map(found) and (section := found.section.parent()) is not None:
-        _, found, _ = evaluated(section, found.point, found.mode)
-    return found
+    while is_of_simpler_map(orbit) and (section := orbit.section.parent()) is not None:
+        _, orbit, _ = evaluated(section, orbit.point, orbit.mode)
+    return orbit
 
 
 def parent(here: Orbit, there: Orbit) -> Orbit | None:
@@ -61,13 +61,13 @@ def parent(here: Orbit, there: Orbit) -> Orbit | None:
     if here.missed is None or there.missed is None or here.missed[1] @ there.missed[1] >= 0.0:
         return None
     nearer = min(here, there, key=_miss)
-    found = _zero(nearer, half_plus)
-    if found is None:
+    orbit = _zero(nearer, half_plus)
+    if orbit is None:
         return None
     # From afar the images may have changed sides elsewhere.
     step = np.linalg.norm(here.section.scaled(there.point - here.point))
-    away = np.linalg.norm(here.section.scaled(found.point - nearer.point))
-    return found if away <= step else None
+    away = np.linalg.norm(here.section.scaled(orbit.point - nearer.point))
+    return orbit if away <= step else None
 
 
 def shrinks_onto(last: Orbit) -> Orbit | None:
@@ -105,18 +105,18 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
     point = guess.copy()
     for _ in range(30):
         point[VALUE] = values[len(tests)]
-        status, found = corrected(section, point, mode)
+        status, orbit = corrected(section, point, mode)
         if status is not Status.DONE:
             return None
-        point = found.point.copy()
-        tests.append(test(found))
+        point = orbit.point.copy()
+        tests.append(test(orbit))
         if len(tests) < 2:
             continue
         rise = tests[-1] - tests[-2]
         step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
         if abs(step) <= 1e-15 * abs(values[-1]):
-            return found
+            return orbit
         if abs(values[-1] + step - first) > _REACH * section.scale[VALUE]:
             return None
         values.append(values[-1] + step)
-    return found
+    return orbit

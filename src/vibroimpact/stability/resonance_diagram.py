@@ -121,7 +121,7 @@ def resonance_diagram(
     shaken = rig.with_parts(rig.oscillator, rig.harmonic.replace(phase=phase))
     fam, ends = family(shaken, along.parameter.name), along.ends
     own = read_outputs(outputs, rig)
-    given = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
+    datasets = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
     begin = values(fam, ends, starts)
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
@@ -129,7 +129,7 @@ def resonance_diagram(
         for first in itertools.chain(
             free(begin),
             settled(begin, longest, random, seed),
-            in_basins(fam, ends, given, longest),
+            in_basins(fam, ends, datasets, longest),
         )
     ]
     complete = True
@@ -144,13 +144,13 @@ def resonance_diagram(
         point = progress and (lambda *_: progress(len(followed), len(followed) + 1 + len(waiting)))
         done = follow_both_ways(first, ends, most_points, point)
         followed.append(done)
-        for found in done.bifurcations:
-            if found.turns or found.kind not in (BREAKING, DOUBLING):
+        for bifurcation in done.bifurcations:
+            if bifurcation.turns or bifurcation.kind not in (BREAKING, DOUBLING):
                 continue
-            for station in bifurcating_orbits(found):
+            for station in bifurcating_orbits(bifurcation):
                 inside = ends[0] <= station.orbit.value <= ends[1]
                 if station.orbit.section.period <= longest and inside:
-                    waiting.append((station.orbit, found))
+                    waiting.append((station.orbit, bifurcation))
         if progress:
             progress(len(followed), len(followed) + len(waiting))
     if progress:  # what still waited was on branches that had been followed
@@ -207,9 +207,9 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
         near = [z for z in seen_there[phase] if np.linalg.norm(section.scaled(z - guess)) <= reach]
         if not near:
             continue
-        status, found = corrected(here.orbit.section, guess, here.orbit.mode)
+        status, branch_orbit = corrected(here.orbit.section, guess, here.orbit.mode)
         if status is Status.DONE and any(
-            np.linalg.norm(section.scaled(found.point - z)) <= _SAME for z in near
+            np.linalg.norm(section.scaled(branch_orbit.point - z)) <= _SAME for z in near
         ):
             return True
     return False

@@ -92,10 +92,10 @@ def approach(
 
 
 def later(
-    found: Settled, state: _Array, cycles: float, max_events: int = 10_000
+    motion: Settled, state: _Array, cycles: float, max_events: int = 10_000
 ) -> tuple[Status, _Array]:
     """The state some forcing cycles later; of use only if `Status.DONE`."""
-    return found.engine.propagate(state, cycles, max_events)
+    return motion.engine.propagate(state, cycles, max_events)
 
 
 def section_sizes(engine: PreparedRig) -> _Array:
@@ -105,18 +105,18 @@ def section_sizes(engine: PreparedRig) -> _Array:
     return size
 
 
-def state_distance(found: Settled, one: _Array, other: _Array, size: float) -> float:
+def state_distance(motion: Settled, one: _Array, other: _Array, size: float) -> float:
     """Largest difference of two states of the engine, as a displacement over `size`."""
-    difference = np.abs(found.states.point(one) - found.states.point(other))
-    return float((difference / section_sizes(found.engine)).max() / size)
+    difference = np.abs(motion.states.point(one) - motion.states.point(other))
+    return float((difference / section_sizes(motion.engine)).max() / size)
 
 
-def reach(found: Settled, state: _Array) -> float:
+def reach(motion: Settled, state: _Array) -> float:
     """Size of a motion near a state, as a displacement (m); never zero."""
-    states, omega = found.states, found.excitation.angular_frequency
+    states, omega = motion.states, motion.excitation.angular_frequency
     moved = np.abs(states.point(state)[: 2 * states.masses])
     moved[states.masses :] /= omega
-    return max(float(moved.max()), 1e-3 * reach_at_rest(found.rig), 1e-300)
+    return max(float(moved.max()), 1e-3 * reach_at_rest(motion.rig), 1e-300)
 
 
 def reach_at_rest(rig: Rig) -> float:
@@ -131,6 +131,6 @@ def reach_at_rest(rig: Rig) -> float:
     return peak / (system.angular_frequency or omega) ** 2
 
 
-def settled_on(found: Orbit) -> Settled:
+def settled_on(orbit: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    return Settled(prepare(found.rig), vector_of(found), found.section.period, 0, Status.DONE)
+    return Settled(prepare(orbit.rig), vector_of(orbit), orbit.section.period, 0, Status.DONE)

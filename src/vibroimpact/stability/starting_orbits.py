@@ -87,8 +87,8 @@ def _swing(rig: Rig) -> _Phasors | None:
     if isolator.initial_stiffness == 0.0 or not isolator.linear:
         return None
     with np.errstate(divide="ignore", invalid="ignore"):
-        found: _Phasors = harmonics(rig, np.array([rig.periodic.frequency]))[0][0]
-    return found
+        phasors: _Phasors = harmonics(rig, np.array([rig.periodic.frequency]))[0][0]
+    return phasors
 
 
 def _clear(rig: Oscillator, swing: _Phasors | None) -> bool:
@@ -118,22 +118,22 @@ def settled(at: Values, longest: int, random: int, seed: int) -> Iterator[Orbit]
         steps=len(states) * count,
     )
     # From the far end of a sweep: there free flight and the large motions are simple.
-    for found, order in zip(
+    for motions, order in zip(
         [*carried, *drawn],
         [range(count)[::-1], range(count), *([range(count)] * random)],
         strict=True,
     ):
         for i in order:
-            one = found[i]
+            one = motions[i]
             ends = _ends(one)
-            if not 0 < one.found.period <= longest or _met(one, ends, known[i]):
+            if not 0 < one.motion.period <= longest or _met(one, ends, known[i]):
                 continue
-            start = state_from(one.found.state, one.found.excitation.phase)
+            start = state_from(one.motion.state, one.motion.excitation.phase)
             try:
-                yield first_orbit(at.family_at(i), at.span, start, one.found.period)
+                yield first_orbit(at.family_at(i), at.span, start, one.motion.period)
             except InputError:
                 continue  # settled to within the sweep's tolerance, but on the edge of a basin
-            known[i].append((one.found.period, *ends))
+            known[i].append((one.motion.period, *ends))
 
 
 class _Way(NamedTuple):
@@ -145,23 +145,23 @@ class _Way(NamedTuple):
 
 def _held(at: Values, way: _Way, tally: Tally) -> list[Held]:
     """What motions settle on at each value, in rising order of them."""
-    found: list[Held] = []
+    motions: list[Held] = []
     every = at.every[:: way.sense]
-    stepped(every, way.start, Settling(), found.append, tally, carry=way.start is None)
-    return found[:: way.sense]
+    stepped(every, way.start, Settling(), motions.append, tally, carry=way.start is None)
+    return motions[:: way.sense]
 
 
 def _ends(one: Held) -> tuple[float, float]:
     """How far a motion goes to both sides; of a symmetric rig the smaller first."""
     ends = float(one.measured.displacement_max), -float(one.measured.displacement_min)
-    return (min(ends), max(ends)) if one.found.symmetric else ends
+    return (min(ends), max(ends)) if one.motion.symmetric else ends
 
 
 def _met(one: Held, ends: tuple[float, float], known: list[tuple[int, float, float]]) -> bool:
     """Whether an orbit of its period that goes as far was met before."""
     size = max(abs(end) for end in ends)
     return any(
-        period == one.found.period
+        period == one.motion.period
         and max(abs(first - ends[0]), abs(second - ends[1])) <= _SAME * size
         for period, first, second in known
     )
@@ -202,8 +202,8 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
     """The value of the parameter at which basins were found."""
     if not isinstance(one, xr.Dataset) or "basin" not in one or "section_attractor" not in one:
         raise InputError(f"{field}: this is not a result of basins; pass such a result")
-    given = motion_parameters(one)
-    rig = Rig(Oscillator.model_validate(given["oscillator"]), excitation_from(given))
+    parameters = motion_parameters(one)
+    rig = Rig(Oscillator.model_validate(parameters["oscillator"]), excitation_from(parameters))
     value = fam.parameter.read(rig)
     there = fam.at(value)
     alike = np.allclose(system_vector(rig), system_vector(there), 1e-9, 0.0, True)

@@ -138,17 +138,17 @@ def steady(
     engine_system(rig.system).check_size()
     check_samples(window, samples, "window")
     state = engine_system(rig.system).read(start)
-    found = approach(rig, state, tolerance, max_cycles, max_events, progress)
-    if found.status not in (Status.DONE, Status.NOT_SETTLED):
-        return _given_up(found, samples, max_events)
-    data = describe_motion(found, samples, window, exponent_cycles, max_events, progress)
+    motion = approach(rig, state, tolerance, max_cycles, max_events, progress)
+    if motion.status not in (Status.DONE, Status.NOT_SETTLED):
+        return _given_up(motion, samples, max_events)
+    data = describe_motion(motion, samples, window, exponent_cycles, max_events, progress)
     if progress:
         progress(max_cycles, max_cycles)  # it may have settled long before
     return data
 
 
 def describe_motion(
-    found: Settled,
+    motion: Settled,
     samples: int,
     window: int,
     exponent_cycles: int,
@@ -156,35 +156,37 @@ def describe_motion(
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Classify a motion, record it and measure it."""
-    used, slowly = found.cycles, ""
-    if not found.period:
-        state = found.state.copy()
+    used, slowly = motion.cycles, ""
+    if not motion.period:
+        state = motion.state.copy()
         kind, damping, cycles, status = judge_wandering(
-            found, state, exponent_cycles, max_events, progress
+            motion, state, exponent_cycles, max_events, progress
         )
         used += cycles + DISCARD
-        found = found._replace(state=state, period=kind.period, cycles=used)
+        motion = motion._replace(state=state, period=kind.period, cycles=used)
         if status is not Status.DONE:
-            return _given_up(found._replace(status=status), samples, max_events)
-        if kind.returns and (orbit := approached(found, kind.returns)) is not None:
-            found = orbit._replace(cycles=used)
+            return _given_up(motion._replace(status=status), samples, max_events)
+        if kind.returns and (orbit := approached(motion, kind.returns)) is not None:
+            motion = orbit._replace(cycles=used)
             slowly = "; it settles slowly, and was computed by Newton's method"
-    if found.period:
-        kind, damping, cycles, status = judge_orbit(found, max_events)
+    if motion.period:
+        kind, damping, cycles, status = judge_orbit(motion, max_events)
         if status is not Status.DONE:
-            return _given_up(found._replace(status=status), samples, max_events)
+            return _given_up(motion._replace(status=status), samples, max_events)
         kind = kind._replace(evidence=kind.evidence + slowly)
     stable = {"chaotic": 0, "periodic": _stable(kind)}.get(kind.motion, -1)
     if kind.period and stable == -1:
         kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
         if used:
-            told = f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
-            warn_of_result(f"steady: {told}")
-    data = _record(found, found.state, samples, kind.period or window, max_events)
+            message = (
+                f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
+            )
+            warn_of_result(f"steady: {message}")
+    data = _record(motion, motion.state, samples, kind.period or window, max_events)
     if int(data["status"]) not in (Status.DONE, Status.REVERSED):
-        return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
-    frequency = found.excitation.frequency
-    distance = _mirror_distance(found, found.state, kind.period, max_events)
+        return _given_up(motion._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
+    frequency = motion.excitation.frequency
+    distance = _mirror_distance(motion, motion.state, kind.period, max_events)
     scalars: dict[str, Any] = {
         "motion": kind.motion,
         "period": kind.period,
@@ -198,20 +200,20 @@ def describe_motion(
         "exponents_uncertainty": ("exponent", kind.uncertainty * frequency),
     }
     data.attrs["evidence"] = kind.evidence
-    return _measured(data, found, scalars)
+    return _measured(data, motion, scalars)
 
 
-def approached(found: Settled, period: int) -> Settled | None:
+def approached(motion: Settled, period: int) -> Settled | None:
     """Compute the stable orbit to which a motion slowly converges, by Newton's method."""
-    along = family(found.rig, "frequency")
-    here = found.states.state(found.state, found.excitation.phase)
+    along = family(motion.rig, "frequency")
+    here = motion.states.state(motion.state, motion.excitation.phase)
     try:
         orbit = first_orbit(along, (0.0, 1.0), here, period, symmetric=False)
     except InputError:
         return None
     there = settled_on(orbit)
-    size = reach(found, found.state)
-    near = state_distance(found, there.state, found.state, size) <= APPROACHED
+    size = reach(motion, motion.state)
+    near = state_distance(motion, there.state, motion.state, size) <= APPROACHED
     return there if near and orbit.stable else None
 
 
@@ -222,44 +224,44 @@ def _stable(kind: Judgement) -> int:
 
 
 def _record(
-    found: Settled, state: _Array, samples: int, cycles: int, max_events: int
+    motion: Settled, state: _Array, samples: int, cycles: int, max_events: int
 ) -> xr.Dataset:
     return compute_history(
-        found.rig,
+        motion.rig,
         cycles,
-        found.states.state(state, found.excitation.phase),
+        motion.states.state(state, motion.excitation.phase),
         samples,
         max_events=max_events,
     )
 
 
-def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int) -> float:
+def _mirror_distance(motion: Settled, state: _Array, period: int, max_events: int) -> float:
     """Return the distance of a periodic motion from its own mirror image half a period later.
 
     The forcing must change its sign after half a period, so the period is an odd number of cycles.
     """
     if period % 2 == 0:
         return math.nan
-    status, half = later(found, state, 0.5 * period, max_events)
+    status, half = later(motion, state, 0.5 * period, max_events)
     if status is not Status.DONE:
         return math.nan  # seen from there a cycle has more events than are allowed
-    image = found.states.mirror_image(half)
-    return math.nan if image is None else state_distance(found, image, state, reach(found, state))
+    image = motion.states.mirror_image(half)
+    return math.nan if image is None else state_distance(motion, image, state, reach(motion, state))
 
 
-def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
+def _measured(data: xr.Dataset, motion: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, the contact log, the exact extremes, and quantities derived from them."""
-    if found.states.system.by_mass:
-        return _measured_by_mass(data, found, scalars)
+    if motion.states.system.by_mass:
+        return _measured_by_mass(data, motion, scalars)
     periodic = scalars["period"] > 0
-    origin = Origin(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
+    origin = Origin(motion.oscillator, motion.excitation, float(data["cycle"].values[-1]), periodic)
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
     counts = Counter(log["contact_stop"].values.tolist())
     total, sizes = energies(every), extremes(every)
-    exciting = found.oscillator.mass * float(
-        exciting_excursion(found.rig, np.array([found.excitation.frequency]))[0]
+    exciting = motion.oscillator.mass * float(
+        exciting_excursion(motion.rig, np.array([motion.excitation.frequency]))[0]
     )
     values: dict[str, Any] = {
         **sizes,
@@ -272,38 +274,38 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = [*doubt_stops(found.rig, ends), *noted(data), *every.notes]
+    notes = [*doubt_stops(motion.rig, ends), *noted(data), *every.notes]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
-def _measured_by_mass(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
+def _measured_by_mass(data: xr.Dataset, motion: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, and the exact extremes, forces and impacts, by mass and stop."""
     cycles = max(round(float(data["cycle"].values[-1])), 1)
-    row = measured_over(found.engine, found.state, cycles)
-    variables = found.states.measured(row, ())
+    row = measured_over(motion.engine, motion.state, cycles)
+    variables = motion.states.measured(row, ())
     ordered = int(data["simultaneous_impacts"])
     data = data.assign({**variables, **scalars, "simultaneous_impacts": ordered})
     data.attrs["created_by"] = "vibroimpact.steady"
     return describe(data, "vibroimpact.steady", notes=noted(data))
 
 
-def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
+def _given_up(motion: Settled, samples: int, max_events: int) -> xr.Dataset:
     """Record a motion in the cycle in which it reached a limit, from the previous section."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        data = _record(found, found.state, samples, 1, max_events)
+        data = _record(motion, motion.state, samples, 1, max_events)
         if not data.sizes["time"]:
-            data = _until_the_last_event(data, found, samples)
+            data = _until_the_last_event(data, motion, samples)
     if not data.sizes["time"]:
-        told = found.status.advice
-        raise InputError(f"excitation: the motion could not be simulated: {told}")
-    warn_of_result(f"steady stopped in cycle {found.cycles}: {found.status.advice}")
-    nothing = ("exponent", np.full(2 * found.states.masses, np.nan))
+        advice = motion.status.advice
+        raise InputError(f"excitation: the motion could not be simulated: {advice}")
+    warn_of_result(f"steady stopped in cycle {motion.cycles}: {motion.status.advice}")
+    nothing = ("exponent", np.full(2 * motion.states.masses, np.nan))
     scalars: dict[str, Any] = {
         "motion": "undecided",
         "period": 0,
         "stable": -1,
-        "cycles": found.cycles,
+        "cycles": motion.cycles,
         "exponents_cycles": 0,
         "effective_damping": np.nan,
         "antisymmetric": False,
@@ -311,21 +313,21 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
         "exponents": nothing,
         "exponents_uncertainty": nothing,
     }
-    data["status"] = int(found.status)
-    data.attrs["evidence"] = data.attrs["message"] = found.status.advice
-    return _measured(data, found, scalars)
+    data["status"] = int(motion.status)
+    data.attrs["evidence"] = data.attrs["message"] = motion.status.advice
+    return _measured(data, motion, scalars)
 
 
-def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.Dataset:
+def _until_the_last_event(data: xr.Dataset, motion: Settled, samples: int) -> xr.Dataset:
     """Return the simulated part of a cycle: up to its last event, or only its start."""
     length = 0.0
     if data.sizes["event"]:
-        length = float(data["event_cycle_time"][-1]) * found.excitation.frequency
+        length = float(data["event_cycle_time"][-1]) * motion.excitation.frequency
     length = max(length, 1e-12)
     return compute_history(
-        found.rig,
+        motion.rig,
         length,
-        found.states.state(found.state, found.excitation.phase),
+        motion.states.state(motion.state, motion.excitation.phase),
         samples,
         max_events=max(data.sizes["event"], 1),
     )

@@ -31,7 +31,7 @@ class Sampling(NamedTuple):
     """Which statement differs from another one or from the times."""
 
 
-def check_count(file: File, stated: Statements, found: Iterable[int]) -> None:
+def check_count(file: File, stated: Statements, counts: Iterable[int]) -> None:
     """Check the stated number of samples.
 
     Parameters
@@ -40,7 +40,7 @@ def check_count(file: File, stated: Statements, found: Iterable[int]) -> None:
         The file, for messages.
     stated
         Statements of the file.
-    found
+    counts
         Numbers of values that follow, as they may be counted. The first one is shown.
 
     Raises
@@ -48,16 +48,16 @@ def check_count(file: File, stated: Statements, found: Iterable[int]) -> None:
     InputError
         If the file states numbers of samples, and none of them is one of these.
     """
-    numbers = list(found)
+    numbers = list(counts)
     if stated.counts and not {int(one.value) for one in stated.counts} & set(numbers):
         raise wrong_count(file, stated.counts[0], numbers[0])
 
 
-def wrong_count(file: File, stated: Number, found: int) -> InputError:
+def wrong_count(file: File, stated: Number, count: int) -> InputError:
     """Return the error for a stated number of samples that the values contradict."""
     return file.refused(
         stated.line,
-        f"the file announces {stated.value:g} values, but {found} follow; correct this number, or "
+        f"the file announces {stated.value:g} values, but {count} follow; correct this number, or "
         "pass a complete file",
     )
 
@@ -86,14 +86,14 @@ def sampling(table: Table, unit: str | None = None) -> Sampling:
             f"{other.text!r}: {step.value:g} s or {other.value:g} s; correct one of them"
         )
     if table.time is None:
-        found = Sampling(step.value if step else None)
+        timing = Sampling(step.value if step else None)
     else:
         times = np.asarray(table.columns[table.time].values, dtype=float)
-        found = _of_times(table, times, unit or stated.time_unit or "s")
-    contradiction = found.contradiction or contradiction
-    if found.step is not None and not contradiction:
-        contradiction = duration_contradiction(stated, found.step, len(table.lines))
-    return found._replace(contradiction=contradiction)
+        timing = _of_times(table, times, unit or stated.time_unit or "s")
+    contradiction = timing.contradiction or contradiction
+    if timing.step is not None and not contradiction:
+        contradiction = duration_contradiction(stated, timing.step, len(table.lines))
+    return timing._replace(contradiction=contradiction)
 
 
 def _of_times(table: Table, times: NDArray[np.float64], unit: str) -> Sampling:
@@ -123,10 +123,10 @@ def _of_times(table: Table, times: NDArray[np.float64], unit: str) -> Sampling:
         )
     if even.is_exact:
         return Sampling(step, contradiction=contradiction)
-    told = f"its times are uneven by up to {even.off / each:.3g} s"
+    note = f"its times are uneven by up to {even.off / each:.3g} s"
     if stated is not None and not contradiction:
-        return Sampling(stated.value, f"{told}, so the stated step is used")
-    used = f"{told}, so the average step of {step:.6g} s is used"
+        return Sampling(stated.value, f"{note}, so the stated step is used")
+    used = f"{note}, so the average step of {step:.6g} s is used"
     return Sampling(step, used, contradiction=contradiction)
 
 

@@ -125,11 +125,11 @@ class File:
         while len(parts) < count:
             read = f"{len(parts) // each} of {count // each}"
             if at >= len(self.lines):
-                told = f"the file ends after {read} values; pass a complete file"
-                raise self._damaged(first, at, width) or self.refused(len(self.lines) - 1, told)
+                message = f"the file ends after {read} values; pass a complete file"
+                raise self._damaged(first, at, width) or self.refused(len(self.lines) - 1, message)
             if _TEXT.search(self.lines[at]):
-                told = f"the values end here after {read}; pass a complete file, or correct the "
-                raise self._damaged(first, at, width) or self.refused(at, f"{told}header")
+                message = f"the values end here after {read}; pass a complete file, or correct the "
+                raise self._damaged(first, at, width) or self.refused(at, f"{message}header")
             parts += self._cut(at, width)
             at += 1
         try:
@@ -164,15 +164,15 @@ class File:
 
     def _finite(self, at: int, part: str) -> float:
         try:
-            found = float(part)
+            value = float(part)
         except ValueError:
             why = "is not a number; replace it by a number"
             if "," in part:
                 why = "has a comma; use decimal points, and blanks between numbers"
             raise self.refused(at, f"{part[:40]!r} {why}") from None
-        if not math.isfinite(found):
+        if not math.isfinite(value):
             raise self.refused(at, f"{part!r} is not finite; replace it by a finite number")
-        return found
+        return value
 
     def behind(self, at: int, count: int, width: int | None = None, each: int = 1) -> None:
         """Check that no number follows the values that the header announces.
@@ -193,10 +193,10 @@ class File:
             at += 1
         more = 0
         for line in range(at, len(self.lines)):
-            found = self._leading(line, width)
-            if not found and self.lines[line].strip():
+            line_count = self._leading(line, width)
+            if not line_count and self.lines[line].strip():
                 break
-            more += found
+            more += line_count
         if more:
             raise self.refused(
                 at,
@@ -247,19 +247,19 @@ class File:
         InputError
             If a row has another number of columns, or contains anything but finite numbers.
         """
-        found: list[list[float]] = []
+        values: list[list[float]] = []
         last = len(self.lines)
         while last > first and not self.lines[last - 1].strip():
             last -= 1
         for at in range(first, last):
             cells = self._cut(at, width) if width else self.lines[at].strip().split(separator)
             if len(cells) != columns:
-                told = f"the row has {len(cells)} columns, but the header announces {columns}; "
-                raise self.refused(at, f"{told}pass a complete file")
-            found.append([self._finite(at, cell) for cell in cells[skip:]])
-        return np.array(found, dtype=np.float64).reshape(-1, columns - skip)
+                message = f"the row has {len(cells)} columns, but the header announces {columns}; "
+                raise self.refused(at, f"{message}pass a complete file")
+            values.append([self._finite(at, cell) for cell in cells[skip:]])
+        return np.array(values, dtype=np.float64).reshape(-1, columns - skip)
 
-    def check_count(self, at: int, stated: int, found: int) -> None:
+    def check_count(self, at: int, stated: int, count: int) -> None:
         """Compare a number of values that a line states with the number in the file.
 
         Raises
@@ -269,11 +269,11 @@ class File:
         """
         if stated < 1:
             raise self.refused(at, f"the header states {stated} values; pass at least 2 values")
-        if stated != found:
-            do = "pass a complete file" if found < stated else "remove the extra values"
+        if stated != count:
+            do = "pass a complete file" if count < stated else "remove the extra values"
             raise self.refused(
                 at,
-                f"the header announces {stated} values, but {found} follow it; {do}, or correct "
+                f"the header announces {stated} values, but {count} follow it; {do}, or correct "
                 "the header",
             )
 
@@ -294,8 +294,8 @@ class File:
         InputError
             If no line matches. The message names the entry, `what`.
         """
-        found = self.find_line(pattern, last)
-        if found is None:
+        entry = self.find_line(pattern, last)
+        if entry is None:
             at = min(last, len(self.lines)) - 1
             raise self.refused(at, f"the header does not state {what}; pass a complete file")
-        return found
+        return entry

@@ -142,8 +142,8 @@ def _can_be_names(names: list[str], width: int) -> bool:
 
 def _states(lines: list[str]) -> bool:
     """Return whether one of some lines states a count, a step, a duration or a peak."""
-    found = read_statements(enumerate(lines))
-    return bool(found.counts or found.steps or found.durations or found.peaks)
+    statements = read_statements(enumerate(lines))
+    return bool(statements.counts or statements.steps or statements.durations or statements.peaks)
 
 
 def is_time(name: str) -> bool:
@@ -167,14 +167,14 @@ def entry(text: str) -> tuple[str, str] | None:
 
     After a semicolon the value must be a number, with or without a unit.
     """
-    found = _ENTRY.match(text)
-    if found is None:
+    match = _ENTRY.match(text)
+    if match is None:
         return None
-    if found[2] == ";" and not is_number(found[3]):
+    if match[2] == ";" and not is_number(match[3]):
         return None
-    if found[2] == ":" and found[1][-1].isdigit():  # a time of day
+    if match[2] == ":" and match[1][-1].isdigit():  # a time of day
         return None
-    return found[1], found[3].strip().strip('"')
+    return match[1], match[3].strip().strip('"')
 
 
 def is_number(text: str) -> bool:
@@ -186,9 +186,9 @@ def is_number(text: str) -> bool:
 def listed_units(above: Sequence[Heading], width: int) -> list[str] | None:
     """Return the units that a line such as ``units: s, mm, g`` lists, one for each column."""
     for line in reversed(above):
-        found = re.match(r"\W*units?\s*[:=]\s*(.*)$", line.text, re.IGNORECASE)
-        if found and width > 1:
-            cells = [cell for cell in re.split(r"[,;\s]+", found[1].strip()) if cell]
+        match = re.match(r"\W*units?\s*[:=]\s*(.*)$", line.text, re.IGNORECASE)
+        if match and width > 1:
+            cells = [cell for cell in re.split(r"[,;\s]+", match[1].strip()) if cell]
             if len(cells) == width and are_units(cells):
                 return [spelled(cell) for cell in cells]
     return None

@@ -68,15 +68,15 @@ def unpacked(data: bytes, path: Path | str, field: str, *, gzip: bool) -> bytes:
     zlib.error, EOFError
         If the data are damaged, or if they end too early.
     """
-    found: list[bytes] = []
+    parts: list[bytes] = []
     size = 0
     while data:
         packed = zlib.decompressobj(31 if gzip else 15)
         part = packed.decompress(data, MOST_BYTES + 1 - size)
         size += len(part)
         within(size, path, field)
-        found.append(part)
+        parts.append(part)
         if not packed.eof:
             raise EOFError("the file ends too early")
         data = packed.unused_data.lstrip(b"\0") if gzip else b""
-    return b"".join(found)
+    return b"".join(parts)

@@ -65,12 +65,12 @@ class Rows(NamedTuple):
 def number_in(cell: str, decimal: Decimal) -> float | None:
     """Return the number in a cell, NaN for a missing value, or None for a word."""
     try:  # as nearly always
-        found = float(cell)
+        value = float(cell)
     except ValueError:
         pass
     else:
         if "_" not in cell:
-            return found
+            return value
     cell = cell.strip()
     if cell.lower() in ABSENT:
         return float("nan")
@@ -109,7 +109,7 @@ def split_rows(file: File) -> Rows:
     # With semicolons between columns, the first cell of a line may be empty.
     comment = _COMMENT if delimiter == ";" else (*_COMMENT, ";")
     headings: list[Heading] = []
-    found: list[tuple[int, list[str]]] = []
+    lines: list[tuple[int, list[str]]] = []
     ends: list[int] = []
     for at, line in texts:
         bare = line.strip()
@@ -120,14 +120,14 @@ def split_rows(file: File) -> Rows:
         else:
             if "#" in line or "!" in line:
                 line = _without_comment(line, delimiter, decimal)
-            found.append((at, _cells(line, delimiter, decimal)))
-    rows = _rows(found, decimal)
+            lines.append((at, _cells(line, delimiter, decimal)))
+    rows = _rows(lines, decimal)
     if not rows:
         raise InputError(
             f"{where} has no numbers (no row of numbers); pass a file with number columns"
         )
     kept = {at for at, _ in rows}
-    headings += [Heading(at, file.lines[at].strip(), False) for at, _ in found if at not in kept]
+    headings += [Heading(at, file.lines[at].strip(), False) for at, _ in lines if at not in kept]
     return _body(file, headings, rows, ends, delimiter, decimal)
 
 
@@ -152,13 +152,13 @@ def _rows(lines: list[tuple[int, list[str]]], decimal: Decimal) -> list[tuple[in
     first = some[0][0]
     if 2 * len(strict) >= len(some):
         first = _first_row(lines, [line[0] for line in lines].index(strict[0][0]), decimal)
-    found = []
+    rows = []
     for (at, cells), words in zip(lines, kinds, strict=True):
         is_empty = all(cell.lower() in ABSENT for cell in cells)
         among = at >= first and len(cells) == width
         if words == 0 or (among and (words is not None or is_empty)):
-            found.append((at, cells))
-    return found
+            rows.append((at, cells))
+    return rows
 
 
 def _first_row(lines: list[tuple[int, list[str]]], at: int, decimal: Decimal) -> int:
@@ -182,8 +182,8 @@ def _first_row(lines: list[tuple[int, list[str]]], at: int, decimal: Decimal) ->
 def _along(cell: str, decimal: Decimal) -> float:
     """The number or the time of day in a cell, NaN if there is neither."""
     number = number_in(cell, decimal)
-    if number is None and (found := stamp(cell)) and found.seconds is not None:
-        return found.seconds + found.fraction
+    if number is None and (clock := stamp(cell)) and clock.seconds is not None:
+        return clock.seconds + clock.fraction
     return float("nan") if number is None else number
 
 
@@ -205,7 +205,7 @@ def _words(cells: list[str], decimal: Decimal) -> int | None:
 def _body(
     file: File,
     headings: list[Heading],
-    found: list[tuple[int, list[str]]],
+    rows: list[tuple[int, list[str]]],
     ends: list[int],
     delimiter: str | None,
     decimal: Decimal,
@@ -215,7 +215,7 @@ def _body(
     runs: list[list[tuple[int, list[str]]]] = [[]]
     left = iter(words)
     barrier = next(left, None)
-    for at, cells in found:
+    for at, cells in rows:
         crossed = False
         while barrier is not None and barrier < at:
             crossed, barrier = True, next(left, None)
@@ -284,30 +284,30 @@ def _cells(line: str, delimiter: str | None, decimal: Decimal) -> list[str]:
             cells = line.split(delimiter)
     else:
         cells = line.split(delimiter)
-    found: list[str] = []
+    split_cells: list[str] = []
     for cell in cells:
         bare = cell.strip()
         if " " in bare or "\t" in bare:
             parts = bare.split()
             if all(number_in(part, decimal) is not None for part in parts):
-                found += parts
+                split_cells += parts
                 continue
-        found.append(bare)
-    return found
+        split_cells.append(bare)
+    return split_cells
 
 
 def _joined(parts: list[str]) -> list[str]:
     """Parts between blanks. A date and the time of day after it are one cell."""
-    found: list[str] = []
+    cells: list[str] = []
     for part in parts:
-        both = f"{found[-1]} {part}" if found else ""
+        both = f"{cells[-1]} {part}" if cells else ""
         read = stamp(both) if ":" in part else None
         half = part.lower().strip(".") in ("am", "pm", "a.m", "p.m") and stamp(both)
         if half or (read and read.date and read.seconds is not None):
-            found[-1] = both
+            cells[-1] = both
         else:
-            found.append(part)
-    return found
+            cells.append(part)
+    return cells
 
 
 def cut_heading(text: str, delimiter: str | None) -> list[str]:

@@ -202,8 +202,8 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
     time_unit = None
     for at, line in lines:
         text = " ".join(re.sub(r'["\t]', " ", line[:_LONGEST]).split())
-        text, found = _peaks(at, text)
-        peaks += found
+        text, line_peaks = _peaks(at, text)
+        peaks += line_peaks
         unit = stated_unit(text)
         if unit and _OF_TIME.fullmatch(unit):
             time_unit = unit
@@ -259,7 +259,7 @@ def sampling_of(name: str) -> str | None:
 
 def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
     """The peaks of a line, and the line without them: their units and times are of nothing else."""
-    found: list[Peak] = []
+    peaks: list[Peak] = []
     for match in _PEAK.finditer(text):
         words = re.findall(r"[\w+-]+", match["what"].replace(".", " "))
         unit = match["bracket"] or match["unit"]
@@ -276,7 +276,7 @@ def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
         sizes = [number for number in (match["number"], match["other"]) if number]
         number = max(sizes, key=lambda one: abs(_value(one)))
         shown = match[0][: match.start("at") - match.start()] if match["at"] else match[0]
-        found.append(
+        peaks.append(
             Peak(
                 abs(_value(number)),
                 spelled(unit) if unit else None,
@@ -286,11 +286,11 @@ def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
                 channel,
             )
         )
-    return text, found
+    return text, peaks
 
 
 def _add(
-    found: list[Number], at: int, match: re.Match[str], size: float, *, inverse: bool = False
+    numbers: list[Number], at: int, match: re.Match[str], size: float, *, inverse: bool = False
 ) -> None:
     """Add a number that is greater than 0, such as a step; a rate becomes a step."""
     value = _value(match["number"]) * size
@@ -299,7 +299,7 @@ def _add(
         text = match[0].strip(" ,;:")
         if match.re in (_BARE_STEP, _OWN_STEP):
             text = f"{match['number']} {match['unit']}"
-        found.append(Number(1.0 / value if inverse else value, at, text, digit))
+        numbers.append(Number(1.0 / value if inverse else value, at, text, digit))
 
 
 def _size(match: re.Match[str], unit: str) -> float:
@@ -326,8 +326,8 @@ def last_digit(number: str) -> float:
 
 def _hint(text: str) -> str | None:
     """Return a unit of acceleration that a line contains without the word "unit"."""
-    if (found := _SLASHED.search(text)) and is_acceleration(found[0]):
-        return spelled(found[0])
+    if (match := _SLASHED.search(text)) and is_acceleration(match[0]):
+        return spelled(match[0])
     hint = stated_acceleration(text)
     # A g in brackets may also be a part of the name of a station.
     return None if hint in ("g", "mg") and not _ABOUT_VALUES.search(text) else hint

@@ -90,12 +90,12 @@ def read_table(file: File) -> Table:
         arrangement, notes = _arrangement(file, values, lines, statements)
         columns, places = _rearranged(values, lines, arrangement)
         units = head.units if head and arrangement == "columns" else [_NO_UNITS] * len(columns)
-        found = [Column("", unit, each) for unit, each in zip(units, columns, strict=True)]
+        table_columns = [Column("", unit, each) for unit, each in zip(units, columns, strict=True)]
     else:
         _check_widths(file, cells, lines, width)
         head = head or Headings([""] * width, [_NO_UNITS] * width, frozenset())
         listed = listed_units(headings, width)
-        found = [
+        table_columns = [
             Column(
                 name,
                 _with_listed(units, listed[i]) if listed else units,
@@ -104,16 +104,16 @@ def read_table(file: File) -> Table:
             for i, (name, units) in enumerate(zip(head.names, head.units, strict=True))
         ]
         places = lines
-    found, stamps = with_stamps(file, found, headings, lines)
-    time = time_column(found, statements.step, arrangement in ("pairs", "rows"))
-    if time is not None and found[time].units.unit is None and statements.time_unit is None:
-        unit = unit_since_1970(np.asarray(found[time].values, dtype=float))
+    table_columns, stamps = with_stamps(file, table_columns, headings, lines)
+    time = time_column(table_columns, statements.step, arrangement in ("pairs", "rows"))
+    if time is not None and table_columns[time].units.unit is None and statements.time_unit is None:
+        unit = unit_since_1970(np.asarray(table_columns[time].values, dtype=float))
         if unit:
-            found[time] = found[time]._replace(units=Units(unit))
+            table_columns[time] = table_columns[time]._replace(units=Units(unit))
             notes = (*notes, f"its times are read in {unit} since 1970, as they are that large")
     return Table(
         file,
-        tuple(found),
+        tuple(table_columns),
         np.array(places),
         statements,
         headings,
@@ -207,8 +207,8 @@ def _with_announced(stated: Statements, announced: list[tuple[int, float]]) -> S
 def _check_widths(file: File, cells: list[list[str]], lines: list[int], width: int) -> None:
     for at, row in zip(lines, cells, strict=True):
         if len(row) != width:
-            told = f"the row has {len(row)} number{'' if len(row) == 1 else 's'}, but the "
-            raise file.refused(at, f"{told}rows above have {width}; make all rows equally long")
+            message = f"the row has {len(row)} number{'' if len(row) == 1 else 's'}, but the "
+            raise file.refused(at, f"{message}rows above have {width}; make all rows equally long")
 
 
 def _values(

@@ -30,23 +30,23 @@ def with_stamps(
 
     A column of dates beside one of times of day is joined with it.
     """
-    found = {}
+    stamps_of = {}
     for i, column in enumerate(columns):
         if not column.is_numeric:
             read = [stamp(str(cell)) for cell in column.values]
             if all(read):
-                found[i] = [one for one in read if one]
-    clocks = [i for i, read in found.items() if all(one.seconds is not None for one in read)]
+                stamps_of[i] = [one for one in read if one]
+    clocks = [i for i, read in stamps_of.items() if all(one.seconds is not None for one in read)]
     if not clocks:
         return columns, None
     at = clocks[0]
-    stamps = found[at]
-    days = [i for i, read in found.items() if all(one.seconds is None for one in read)]
+    stamps = stamps_of[at]
+    days = [i for i, read in stamps_of.items() if all(one.seconds is None for one in read)]
     first = str(columns[at].values[0])
     if days and stamps[0].date is None:
         stamps = [
             one._replace(date=day.date, year_first=day.year_first)
-            for one, day in zip(stamps, found[days[0]], strict=True)
+            for one, day in zip(stamps, stamps_of[days[0]], strict=True)
         ]
         first = f"{columns[days[0]].values[0]} {first}"
     else:

@@ -131,51 +131,51 @@ def stamp(text: str) -> Stamp | None:
     """Read a date, a time of day or both, or return None."""
     if len(text) > _LONGEST:
         return None
-    found = _STAMP.fullmatch(text) or _STAMP.fullmatch(_with_marks(text))
-    if found is None or not (found["a"] or found["m"]):
+    match = _STAMP.fullmatch(text) or _STAMP.fullmatch(_with_marks(text))
+    if match is None or not (match["a"] or match["m"]):
         return None
     date = None
-    if found["a"]:
-        date = int(found["a"]), int(found["b"]), int(found["c"])
-        if (len(found["a"]) == 4) == (len(found["c"]) == 4):
-            if len(found["a"]) != 2 or len(found["c"]) != 2:
+    if match["a"]:
+        date = int(match["a"]), int(match["b"]), int(match["c"])
+        if (len(match["a"]) == 4) == (len(match["c"]) == 4):
+            if len(match["a"]) != 2 or len(match["c"]) != 2:
                 return None
             date = date[0], date[1], 2000 + date[2]
-        elif {len(found["a"]), len(found["c"])} - {1, 2, 4}:
+        elif {len(match["a"]), len(match["c"])} - {1, 2, 4}:
             return None
     seconds = None
-    if found["m"]:
-        if not found["h"] and (date or not found["f"]):
+    if match["m"]:
+        if not match["h"] and (date or not match["f"]):
             return None  # 12:30 may be hours and minutes, or minutes and seconds
-        hours, minutes, secs = int(found["h"] or 0), int(found["m"]), int(found["s"])
-        if half := found["half"]:
+        hours, minutes, secs = int(match["h"] or 0), int(match["m"]), int(match["s"])
+        if half := match["half"]:
             hours = hours % 12 + (12 if half.lower().startswith("p") else 0)
-        if hours > 23 or (minutes > 59 and found["h"]) or secs > 60:
+        if hours > 23 or (minutes > 59 and match["h"]) or secs > 60:
             return None
         seconds = 3600.0 * hours + 60.0 * minutes + secs
     zone = 0
-    if found["zone"] and found["zone"][0] in "+-":
-        sign = -1 if found["zone"][0] == "-" else 1
-        zone = sign * (60 * int(found["zone"][1:3]) + int(found["zone"][-2:]))
-    fraction = float(f"0.{found['f']}") if found["f"] else 0.0
-    return Stamp(date, seconds, fraction, zone, bool(found["a"]) and len(found["a"]) == 4)
+    if match["zone"] and match["zone"][0] in "+-":
+        sign = -1 if match["zone"][0] == "-" else 1
+        zone = sign * (60 * int(match["zone"][1:3]) + int(match["zone"][-2:]))
+    fraction = float(f"0.{match['f']}") if match["f"] else 0.0
+    return Stamp(date, seconds, fraction, zone, bool(match["a"]) and len(match["a"]) == 4)
 
 
 def _with_marks(text: str) -> str:
     """Write a date with the name of a month, or one without marks, as 2024-05-31."""
     for form in _NAMED:
-        if found := form.search(text):
-            month = 1 + _MONTHS.index(found["month"].lower())
-            date = f"{found['year']}-{month:02d}-{found['day']}"
-            return text[: found.start()] + date + text[found.end() :]
+        if match := form.search(text):
+            month = 1 + _MONTHS.index(match["month"].lower())
+            date = f"{match['year']}-{month:02d}-{match['day']}"
+            return text[: match.start()] + date + text[match.end() :]
     return _COMPACT.sub(r"\1-\2-\3T\4:\5:\6", text)
 
 
 def stated_order(lines: Iterable[str]) -> str | None:
     """Return ``"dmy"`` or ``"mdy"`` if a line states the order of dates, or None."""
     for line in lines:
-        if found := _STATED.search(line):
-            return "dmy" if found["dmy"] else "mdy"
+        if match := _STATED.search(line):
+            return "dmy" if match["dmy"] else "mdy"
     return None
 
 
@@ -200,15 +200,15 @@ def seconds_since_start(stamps: Sequence[Stamp], order: str | None = None) -> _A
         days = np.cumsum(np.r_[0.0, np.diff(clock) < -43200.0])
         return _relative(days, clock, stamps)
     years = stamps[0].year_first
-    found = []
+    candidates = []
     for each in ("ymd",) if years else ((order,) if order else ("dmy", "mdy")):
         try:
             dates = [_day(one, each) for one in stamps]
         except ValueError:
             continue
-        found.append(_relative(np.array(dates), clock, stamps))
-    even = [times for times in found if spacing(times).step is not None]
-    return next(iter(even or found), None)
+        candidates.append(_relative(np.array(dates), clock, stamps))
+    even = [times for times in candidates if spacing(times).step is not None]
+    return next(iter(even or candidates), None)
 
 
 def _day(one: Stamp, order: str) -> float:

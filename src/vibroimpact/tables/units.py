@@ -59,8 +59,8 @@ def spelled(unit: str) -> str:
     return "m/s^2" if re.fullmatch(r"ms(?:\^?-2|2|⁻²)", clean) else clean
 
 
-def _squared(found: re.Match[str]) -> str:
-    return "/s^2" if found[0].startswith("/") else "^2"
+def _squared(match: re.Match[str]) -> str:
+    return "/s^2" if match[0].startswith("/") else "^2"
 
 
 def stated_unit(line: str) -> str | None:
@@ -68,20 +68,20 @@ def stated_unit(line: str) -> str | None:
 
     A text that is not a unit is returned unchanged. The caller raises the error.
     """
-    found = _AFTER.search(line.replace(" per ", "/"))
-    if found is None:
+    match = _AFTER.search(line.replace(" per ", "/"))
+    if match is None:
         return None
-    text = found["stated"].strip()
+    text = match["stated"].strip()
     whole = _WHOLE.match(text)
-    if found["mark"].strip() in (",", ";"):  # of a sentence, unless what follows is a unit
+    if match["mark"].strip() in (",", ";"):  # of a sentence, unless what follows is a unit
         return spelled(whole[1]) if whole and are_units([whole[1]]) else None
     return spelled(whole[1]) if whole else text[:_SHOWN] or None
 
 
 def stated_acceleration(line: str) -> str | None:
     """Return a unit of acceleration that is in brackets or after the word "in", or None."""
-    for found in (*_BRACKETS.finditer(line), *_IN.finditer(line)):
-        if _ACCELERATIONS.fullmatch(unit := spelled(found[1])):
+    for match in (*_BRACKETS.finditer(line), *_IN.finditer(line)):
+        if _ACCELERATIONS.fullmatch(unit := spelled(match[1])):
             return unit
     return None
 
@@ -94,10 +94,10 @@ def is_acceleration(unit: str) -> bool:
 def parted(name: str) -> tuple[str, str | None]:
     """Return a name without the unit in brackets at its end, and this unit or None."""
     name = name.strip().strip('"').strip()
-    found = _AT_END.search(name)
-    if not found:
+    match = _AT_END.search(name)
+    if not match:
         return name, None
-    return name[: found.start()].strip(), found[1]
+    return name[: match.start()].strip(), match[1]
 
 
 def ended(name: str) -> tuple[str, str | None]:
@@ -165,10 +165,10 @@ def unit_of(name: str) -> str | None:
 
 def time_unit(name: str) -> str | None:
     """Return the unit below 1 s in a name such as ``time_us`` or ``millis``, or None."""
-    found = _TIME_UNIT.fullmatch(name.strip())
-    if found is None or (found["name"] is None and name.strip().lower() == "ns"):  # north-south
+    match = _TIME_UNIT.fullmatch(name.strip())
+    if match is None or (match["name"] is None and name.strip().lower() == "ns"):  # north-south
         return None
-    return next(unit for unit in ("ms", "us", "ns") if found[unit])
+    return next(unit for unit in ("ms", "us", "ns") if match[unit])
 
 
 class Units(NamedTuple):

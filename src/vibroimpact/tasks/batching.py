@@ -58,8 +58,8 @@ def bundle(task: bytes, items: bytes) -> tuple[bytes, float]:
     """Do a task for some items; return the results, and the time that it took (s)."""
     begin = time.perf_counter()
     one = pickle.loads(task)
-    found = [alone(one, item) for item in pickle.loads(items)]
-    return pickle.dumps(found, _PROTOCOL), time.perf_counter() - begin
+    results = [alone(one, item) for item in pickle.loads(items)]
+    return pickle.dumps(results, _PROTOCOL), time.perf_counter() - begin
 
 
 def distribute(
@@ -70,25 +70,25 @@ def distribute(
     progress: Progress | None,
 ) -> list[_Found]:
     """Do a task for each item by some hands; the rest as `threads.each`."""
-    found: list[Any] = [None] * len(items)
+    results: list[Any] = [None] * len(items)
     taken: dict[Any, slice] = {}
-    given = done = 0
+    next_item = done = 0
     most = least = there = back = 1
     shared = importlib.import_module("cloudpickle").dumps(task)  # which may have no name
     width, asked = hands.width(), time.monotonic()
     while done < len(items):
-        while given < len(items) and len(taken) < _AHEAD * width:
+        while next_item < len(items) and len(taken) < _AHEAD * width:
             # Of what is left everybody has twice, so that at the end nobody waits for long.
-            part = max(least, -(-(len(items) - given) // (_AHEAD * width)))
-            some = slice(given, min(given + min(part, most, there, back), len(items)))
+            part = max(least, -(-(len(items) - next_item) // (_AHEAD * width)))
+            some = slice(next_item, min(next_item + min(part, most, there, back), len(items)))
             packed = pickle.dumps(items[some], _PROTOCOL)
             there = _light(some.stop - some.start, packed)
             taken[hands.take(bundle, shared, packed)] = some
-            given = some.stop
+            next_item = some.stop
         for one in hands.ready(taken):
             some = taken.pop(one)
             packed, seconds = hands.result(one)
-            found[some] = pickle.loads(packed)
+            results[some] = pickle.loads(packed)
             count = some.stop - some.start
             back = _light(count, packed)
             rate = count / max(seconds, 1e-9)
@@ -99,7 +99,7 @@ def distribute(
                 progress(done * total // len(items), total)
         if time.monotonic() - asked > _AGAIN:
             width, asked = hands.width(), time.monotonic()
-    return found
+    return results
 
 
 def _light(count: int, packed: bytes) -> int:

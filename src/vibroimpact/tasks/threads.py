@@ -127,10 +127,10 @@ def each(
         if tally[1]:
             raise Stopped
         with _doing(tally):
-            found = task(items[number], tally)
+            value = task(items[number], tally)
         if steps is None:
             tally[0] = 1
-        return found
+        return value
 
     with ThreadPoolExecutor(min(threads or available(), len(items))) as pool:
         futures = [pool.submit(one, number) for number in range(len(items))]
@@ -198,10 +198,10 @@ def watched(
             counted_by=counted_by,
         )[0]
     before = tally[DONE]
-    found = task(tally)
+    value = task(tally)
     tally[DONE] = before  # the task that this is a part of counts its own steps
     stop_if_unwanted()
-    return found
+    return value
 
 
 def stop_if_unwanted() -> None:

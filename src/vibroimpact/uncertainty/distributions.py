@@ -31,13 +31,13 @@ KINDS = (
 
 
 def distribution(
-    given: Any, varied: Parameter, own: Callable[[], float], field: str
+    spec: Any, varied: Parameter, own: Callable[[], float], field: str
 ) -> Distribution:
     """Read a distribution.
 
     Parameters
     ----------
-    given
+    spec
         A frozen distribution of `scipy.stats`, in SI units; or a string as in `KINDS`, such as
         ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. SIGMA is the standard deviation of the
         logarithm.
@@ -53,19 +53,19 @@ def distribution(
     InputError
         If it is not a distribution.
     """
-    if not isinstance(given, str):
-        if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
+    if not isinstance(spec, str):
+        if not callable(getattr(spec, "ppf", None)) or not hasattr(spec, "args"):
             raise InputError(
-                f"{field}: {shown(given)} is not a distribution; pass a frozen distribution of "
+                f"{field}: {shown(spec)} is not a distribution; pass a frozen distribution of "
                 f"scipy.stats, or a string: {KINDS}"
             )
-        frozen: Distribution = given
+        frozen: Distribution = spec
         return frozen
-    kind, *texts = (part.strip() for part in given.split(":"))
+    kind, *texts = (part.strip() for part in spec.split(":"))
     try:
         return _made(kind.lower(), texts, varied, own, field)
     except _Unknown:
-        raise InputError(f"{field}: {given!r} is not a distribution; use {KINDS}") from None
+        raise InputError(f"{field}: {spec!r} is not a distribution; use {KINDS}") from None
 
 
 class _Unknown(Exception):  # noqa: N818 - turned into words
@@ -133,13 +133,13 @@ def _positive(value: float, field: str) -> float:
     return value
 
 
-def told(given: Any) -> str:
+def text_of(spec: Any) -> str:
     """Describe a distribution as text, for the attributes of a dataset."""
-    if isinstance(given, str):
-        return given
-    kept = [f"{number:.12g}" for number in given.args]
-    kept += [f"{name}={number:.12g}" for name, number in given.kwds.items()]
-    return f"{given.dist.name}({', '.join(kept)})"
+    if isinstance(spec, str):
+        return spec
+    kept = [f"{number:.12g}" for number in spec.args]
+    kept += [f"{name}={number:.12g}" for name, number in spec.kwds.items()]
+    return f"{spec.dist.name}({', '.join(kept)})"
 
 
 def check_values(values: _Array, varied: Parameter, field: str) -> None:

@@ -22,7 +22,7 @@ from vibroimpact.uncertainty.distributions import (
     check_names,
     check_values,
     distribution,
-    told,
+    text_of,
 )
 
 _Array = NDArray[np.float64]
@@ -83,8 +83,8 @@ class Uncertain(NamedTuple):
         InputError
             If a rig is invalid, or two parameters set the same number.
         """
-        found = [self.rig(row) for row in values]
-        first = found[0]
+        sample_rigs = [self.rig(row) for row in values]
+        first = sample_rigs[0]
         for varied, value in zip(self.parameters, values[0], strict=True):
             if not math.isclose(varied.read(first), value, rel_tol=_ROUNDING, abs_tol=1e-300):
                 others = [repr(one.name) for one in self.parameters if one is not varied]
@@ -92,7 +92,7 @@ class Uncertain(NamedTuple):
                     f"distributions: {varied.name!r} sets the same property of the rig as "
                     f"{' or '.join(others)}; remove one of them"
                 )
-        return found
+        return sample_rigs
 
     def about(self) -> dict[str, Any]:
         """Return the attributes for a dataset."""
@@ -118,9 +118,9 @@ def uncertain(rig: RigOrSystem, distributions: Any) -> Uncertain:
 
 @as_first_argument
 def _read(base: Rig, shaken: Repeated | None, distributions: Any) -> Uncertain:
-    given = check_names(distributions)
+    entries = check_names(distributions)
     parameters, made = [], []
-    for name, one in given.items():
+    for name, one in entries.items():
         field = f"distributions[{name!r}]"
         varied = parameter(name, base, "distributions")
         if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
@@ -135,7 +135,9 @@ def _read(base: Rig, shaken: Repeated | None, distributions: Any) -> Uncertain:
         current_value()  # refuses what the rig does not have
         parameters.append(varied)
         made.append(distribution(one, varied, current_value, field))
-    texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
+    texts = {
+        varied.name: text_of(one) for varied, one in zip(parameters, entries.values(), strict=True)
+    }
     if len(texts) < len(parameters):
         names = [one.name for one in parameters]
         twice = next(name for name in names if names.count(name) > 1)
@@ -153,12 +155,12 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
     """
     if method == "sobol":
         check_power(count, "draws", "Sobol's points")
-        found: _Array = scipy.stats.qmc.Sobol(columns, rng=seed).random(count)
+        points: _Array = scipy.stats.qmc.Sobol(columns, rng=seed).random(count)
     elif method == "latin":
-        found = scipy.stats.qmc.LatinHypercube(columns, rng=seed).random(count)
+        points = scipy.stats.qmc.LatinHypercube(columns, rng=seed).random(count)
     else:
-        found = np.random.default_rng(seed).random((count, columns))
-    return found
+        points = np.random.default_rng(seed).random((count, columns))
+    return points
 
 
 def check_power(number: int, field: str, what: str) -> None:

@@ -106,19 +106,19 @@ def sensitivity(
     held = data[quantity] if quantity in data else of_quantity(data, quantity)
     values = held.transpose(..., "sample").astype(float)
     one = values.isel(sample=0, drop=True)
-    found = values.values.reshape(*one.shape, columns + 2, draws)
+    samples = values.values.reshape(*one.shape, columns + 2, draws)
 
     dims = (*(str(dim) for dim in one.dims), "uncertain_parameter")
-    first, total = _orders(found)
+    first, total = _orders(samples)
     variables: dict[str, Any] = {
         "first_order": (dims, first),
         "total_order": (dims, total),
-        "mean": (dims[:-1], found[..., :2, :].mean(axis=(-2, -1))),
-        "variance": (dims[:-1], found[..., :2, :].var(axis=(-2, -1))),
+        "mean": (dims[:-1], samples[..., :2, :].mean(axis=(-2, -1))),
+        "variance": (dims[:-1], samples[..., :2, :].var(axis=(-2, -1))),
     }
     if resamples:
         again = np.random.default_rng(seed).integers(draws, size=(resamples, draws))
-        resampled = np.array([_orders(found[..., chosen]) for chosen in again])
+        resampled = np.array([_orders(samples[..., chosen]) for chosen in again])
         tails = 0.5 * np.array([1.0 - CONFIDENCE, 1.0 + CONFIDENCE])
         intervals = np.moveaxis(np.quantile(resampled, tails, axis=0), 0, -1)
         variables["first_order_interval"] = ((*dims, "bound"), intervals[0])
@@ -134,13 +134,13 @@ def sensitivity(
     return made
 
 
-def _orders(found: _Array) -> tuple[_Array, _Array]:
+def _orders(samples: _Array) -> tuple[_Array, _Array]:
     """Compute first and total orders: (b) and (f) of Table 2 of Saltelli et al. (2010).
 
     The axis before the last holds the values of both sets and of the mixed ones. An index is NaN if
     a value is NaN, or if nothing varies.
     """
-    both, mixed = found[..., :2, :], found[..., 2:, :]
+    both, mixed = samples[..., :2, :], samples[..., 2:, :]
     a, b = (both[..., i : i + 1, :] - both.mean(axis=(-2, -1))[..., None, None] for i in (0, 1))
     mixed = mixed - both.mean(axis=(-2, -1))[..., None, None]
     variance = both.var(axis=(-2, -1))[..., None]

@@ -56,7 +56,7 @@ def test_coefficients(name: str) -> None:
     series = formula(machine, Shifted(state, STATE[0]), Rate(state))
     found = []
     for n in range(DEGREE + 1):
-        state.found.append(STATE[n + 1])  # the rate is one ahead of the state
+        state.coefficients.append(STATE[n + 1])  # the rate is one ahead of the state
         found.append(series[n])
     with mpmath.workdps(60):
         exact = mpmath.taylor(lambda t: formula(Precise(), displacement(t), velocity(t)), 0, DEGREE)
@@ -75,8 +75,8 @@ def test_what_is_older_needs_no_newest_coefficient(name: str) -> None:
             for m in range(n):
                 series[m]
             older = series.older(n)
-            state.found.append(newest)
-            rate.found.append(2.0 * newest)
+            state.coefficients.append(newest)
+            rate.coefficients.append(2.0 * newest)
             by = (
                 series.slopes.get(state, 0.0) * newest + series.slopes.get(rate, 0.0) * 2.0 * newest
             )

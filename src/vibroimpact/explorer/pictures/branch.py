@@ -35,7 +35,7 @@ def branches(state: PageState, data: xr.Dataset, progress: Progress) -> dict[str
         If the motion is not periodic.
     """
     shaken, section, period = at(state, data)
-    found = branch(
+    orbits = branch(
         Rig(state.oscillator, shaken),
         section,
         vary={"frequency": state.span},
@@ -46,22 +46,22 @@ def branches(state: PageState, data: xr.Dataset, progress: Progress) -> dict[str
     return {
         "picture": "branch",
         "physical": state.physical,
-        "panels": [_pieces(found, values) for values in _heights(state, data, found)],
+        "panels": [_pieces(orbits, values) for values in _heights(state, data, orbits)],
     }
 
 
-def _heights(state: PageState, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[np.float64]]:
+def _heights(state: PageState, data: xr.Dataset, orbits: xr.Dataset) -> list[NDArray[np.float64]]:
     """What the panels of the curves show, of each orbit."""
     still = base_at_rest(data)
     if not state.physical:
         kinds = ("acceleration", "displacement")
         shares = [
-            found[f"{kind}_excursion"].values / float(data[f"largest_free_{kind}_excursion"])
+            orbits[f"{kind}_excursion"].values / float(data[f"largest_free_{kind}_excursion"])
             for kind in kinds
         ]
-        return [*shares, *([found["transmissibility"].values] if still else [])]
+        return [*shares, *([orbits["transmissibility"].values] if still else [])]
     peaks = (
-        np.fmax(np.abs(found[f"{kind}_max"].values), np.abs(found[f"{kind}_min"].values))
+        np.fmax(np.abs(orbits[f"{kind}_max"].values), np.abs(orbits[f"{kind}_min"].values))
         for kind in ("acceleration", "displacement")
     )
     sizes = [
@@ -70,13 +70,13 @@ def _heights(state: PageState, data: xr.Dataset, found: xr.Dataset) -> list[NDAr
     ]
     if still:
         unit = peak_force_unit(data)
-        sizes.append(found["peak_transmitted_force"].values / unit.size)
+        sizes.append(orbits["peak_transmitted_force"].values / unit.size)
     return sizes
 
 
-def _pieces(found: xr.Dataset, values: NDArray[np.float64]) -> list[dict[str, Any]]:
+def _pieces(orbits: xr.Dataset, values: NDArray[np.float64]) -> list[dict[str, Any]]:
     """The branch, cut where its stability changes; neighbouring pieces share a point."""
-    frequency, stable = found["frequency"].values, found["stable"].values.astype(bool)
+    frequency, stable = orbits["frequency"].values, orbits["stable"].values.astype(bool)
     changes = np.flatnonzero(np.diff(stable.astype(int))) + 1
     ends = [0, *changes, len(stable) - 1]
     return [

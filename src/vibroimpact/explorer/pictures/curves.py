@@ -9,7 +9,7 @@ import xarray as xr
 
 from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import PageState
-from vibroimpact.facts import sweeps as told
+from vibroimpact.facts import sweeps as facts_of
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.model.written_units import as_first_argument
@@ -40,9 +40,9 @@ def swept(state: PageState, fine: bool, progress: Progress | None = None) -> xr.
 @as_first_argument
 def curves(state: PageState, data: xr.Dataset, fine: bool) -> dict[str, Any]:
     """Return the curves of a sweep as two or three panels."""
-    found = resonance.features(data)
+    features = resonance.features(data)
     panels = physical_curves(data) if state.physical else normalised(data)
-    words = as_text(told.text(data, found, advice(data)), WIDTH) if fine else None
+    words = as_text(facts_of.text(data, features, advice(data)), WIDTH) if fine else None
     return {
         "picture": "curves",
         "fine": fine,
@@ -58,11 +58,11 @@ def curves(state: PageState, data: xr.Dataset, fine: bool) -> dict[str, Any]:
                 "after": forcing(jump.after),
                 "upward": bool(jump.upward),
             }
-            for jump in found.jumps
+            for jump in features.jumps
         ],
         "hysteresis": [
             {"low": forcing(item.low), "high": forcing(item.high), "side": item.side}
-            for item in found.hysteresis
+            for item in features.hysteresis
         ],
     }
 

@@ -10,7 +10,7 @@ import xarray as xr
 from vibroimpact.datasets.stops import of_stop
 from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import PageState
-from vibroimpact.facts import motions as told
+from vibroimpact.facts import motions as facts_of
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.finish import in_unit
 from vibroimpact.model import Harmonic
@@ -66,13 +66,13 @@ def careful(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     motion = steady(
         Rig(state.oscillator, shaken), section, SAMPLES, window=WINDOW, exponent_cycles=_GROWTH
     )
-    found = {shaken.frequency: {f"{state.direction} branch": motion}}
+    motions = {shaken.frequency: {f"{state.direction} branch": motion}}
     drawn = motion.isel(time=slice(MOST_CYCLES * SAMPLES + 1))
     return {
         **_drawn(state, drawn, shaken),
         "fine": True,
-        "words": told.words(motion),
-        "table": as_text(told.text(found), WIDTH),
+        "words": facts_of.words(motion),
+        "table": as_text(facts_of.text(motions), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
             {"time": one(start), "stop": str(stop), "speed": one(in_unit(1e3) * speed)}

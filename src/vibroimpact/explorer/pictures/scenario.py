@@ -8,7 +8,7 @@ import xarray as xr
 
 from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import PageState
-from vibroimpact.facts import scenario as told
+from vibroimpact.facts import scenario as facts_of
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.scenarios.classification import scenario
@@ -23,27 +23,27 @@ from vibroimpact.tasks.threads import Progress
 def quick(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the scenario of a coarse sweep, while a knob is turned."""
     used = Thresholds()
-    found = evidence(Rig(state.oscillator, state.shaking), data, 0.5 * used.prominence)
-    label = scenario(found, used).label
+    sweep_evidence = evidence(Rig(state.oscillator, state.shaking), data, 0.5 * used.prominence)
+    label = scenario(sweep_evidence, used).label
     return {
         "picture": "scenario",
         "fine": False,
         "scenario": label,
-        "meaning": told.meaning(label),
+        "meaning": facts_of.meaning(label),
         "confidence": None,
-        "evidence": in_words(found, used).split("; "),
+        "evidence": in_words(sweep_evidence, used).split("; "),
     }
 
 
 @as_first_argument
 def careful(state: PageState, progress: Progress) -> dict[str, Any]:
     """Return the result of `vibroimpact.classify_scenario`, which selects its own frequencies."""
-    found = told.facts(classify(state.rig, progress=progress))
+    summary = facts_of.facts(classify(state.rig, progress=progress))
     return {
         "picture": "scenario",
         "fine": True,
-        "scenario": found["scenario"],
-        "meaning": found["meaning"],
-        "confidence": one(found["confidence"]),
-        "evidence": found["evidence"],
+        "scenario": summary["scenario"],
+        "meaning": summary["meaning"],
+        "confidence": one(summary["confidence"]),
+        "evidence": summary["evidence"],
     }

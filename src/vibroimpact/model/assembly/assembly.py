@@ -210,7 +210,7 @@ class Assembly(System):
         if data.get("units") == NONE:
             check_no_units(data)
         read = dict(data)
-        given = {
+        tables = {
             part: _table(data.get(part), part) for part in ("masses", "links", "stops", "forces")
         }
         matrices = data.get("matrices")
@@ -222,12 +222,12 @@ class Assembly(System):
             )
         read["matrices"] = matrices
         for key in ("mass", "stiffness"):
-            if matrices is None and not given["masses"] and key in data:
+            if matrices is None and not tables["masses"] and key in data:
                 raise InputError(
                     f"{key}: unknown key; write masses by name as masses, or matrices as "
                     "matrices.mass, matrices.stiffness and matrices.damping"
                 )
-        if (matrices is None) == (not given["masses"]):
+        if (matrices is None) == (not tables["masses"]):
             raise InputError(
                 "masses: missing; pass a mapping from names to masses, such as "
                 '{"base": "300 t", "roof": "250 t"}'
@@ -236,14 +236,14 @@ class Assembly(System):
             )
         masses = {
             check_part_name(name, "masses"): _MASS.at(value, f"masses.{name}")
-            for name, value in given["masses"].items()
+            for name, value in tables["masses"].items()
         }
         names = masses if matrices is None else matrices.names
         read["masses"] = FrozenMapping(masses)
         read["forces"] = FrozenMapping(
             {
                 check_known(name, list(names), "mass", "forces"): _FORCE.at(value, f"forces.{name}")
-                for name, value in given["forces"].items()
+                for name, value in tables["forces"].items()
             }
         )
 
@@ -255,16 +255,16 @@ class Assembly(System):
                 return 1.0 / sum(1.0 / masses[one] for one in where)
             return _meeting(np.array(matrices.mass), _closing(left, right, list(names)))
 
-        carried = CarriedMasses(masses, names, given["links"], data.get("units"))
+        carried = CarriedMasses(masses, names, tables["links"], data.get("units"))
         for part, is_stop in (("links", False), ("stops", True)):
-            found = {}
-            for name, value in given[part].items():
+            links = {}
+            for name, value in tables[part].items():
                 where = f"{part}.{check_part_name(name, part)}"
                 mass = meeting if is_stop else partial(carried.of, name)
-                found[name] = read_link(value, where, is_stop=is_stop, mass=mass)
+                links[name] = read_link(value, where, is_stop=is_stop, mass=mass)
                 for end in ("left", "right"):
-                    check_body(getattr(found[name], end), names, f"{where}.{end}")
-            read[part] = FrozenMapping(found)
+                    check_body(getattr(links[name], end), names, f"{where}.{end}")
+            read[part] = FrozenMapping(links)
         carried.warn(read["links"])
         return read
 
@@ -471,7 +471,7 @@ class Assembly(System):
             The links that contribute.
         """
         count = len(self.names)
-        found = (
+        matrix = (
             np.zeros((count, count))
             if self.matrices is None
             else np.array(getattr(self.matrices, what))
@@ -483,8 +483,8 @@ class Assembly(System):
             else:
                 law = link.isolator
                 value = law.damping if law.damping_exponent == 1.0 else 0.0
-            found += value * np.outer(w, w)
-        return found
+            matrix += value * np.outer(w, w)
+        return matrix
 
     def _acted_on_by(self, shaking: Repeated) -> Repeated:
         """Return an excitation with the mass on which a force acts.
@@ -514,16 +514,16 @@ class Assembly(System):
     def rows(self) -> list[tuple[str, str]]:
         """Return the paths of the parts and their values, with units unless there are none."""
         with written_for(self):
-            found = [(f"masses.{name}", pretty(one, MASS)) for name, one in self.masses.items()]
+            pairs = [(f"masses.{name}", pretty(one, MASS)) for name, one in self.masses.items()]
             if self.matrices is not None:
-                found.append(("degrees of freedom", listed(list(self.names))))
+                pairs.append(("degrees of freedom", listed(list(self.names))))
             for part in ("links", "stops"):
                 for name, link in getattr(self, part).items():
-                    found += [(f"{part}.{name}.{key}", text) for key, text in link.rows()]
-            found += [(f"forces.{name}", pretty(one, FORCE)) for name, one in self.forces.items()]
+                    pairs += [(f"{part}.{name}.{key}", text) for key, text in link.rows()]
+            pairs += [(f"forces.{name}", pretty(one, FORCE)) for name, one in self.forces.items()]
             if self.damping is not None:
-                found += [(f"damping.{key}", text) for key, text in self.damping.rows()]
-            return found
+                pairs += [(f"damping.{key}", text) for key, text in self.damping.rows()]
+            return pairs
 
     def __str__(self) -> str:
         with written_for(self):
@@ -554,11 +554,11 @@ def _meeting(mass: NDArray[np.float64], w: NDArray[np.float64]) -> float:
 
 
 def _closing(left: str, right: str, names: list[str]) -> NDArray[np.float64]:
-    found = np.zeros(len(names))
+    signs = np.zeros(len(names))
     for end, sign in ((left, 1.0), (right, -1.0)):
         if end != GROUND:
-            found[names.index(end)] += sign
-    return found
+            signs[names.index(end)] += sign
+    return signs
 
 
 def _table(value: Any, part: str) -> Mapping[str, Any]:

@@ -82,19 +82,19 @@ def _check_room(assembly: Assembly) -> None:
     scale = float(np.abs(gaps).max()) or 1.0
     rows = np.array([assembly.closing(stop) for stop in rigid.values()])
     count = len(assembly.names)
-    found = linprog(
+    solution = linprog(
         np.append(np.zeros(count), -1.0),
         A_ub=np.column_stack([rows, np.ones(len(rigid))]),
         b_ub=gaps / scale,
         bounds=[(None, None)] * count + [(None, 1.0)],
     )
-    if found.status == 0 and found.x[-1] > 1e-12:
+    if solution.status == 0 and solution.x[-1] > 1e-12:
         return
-    marginals = np.zeros(len(rigid)) if found.status else found.ineqlin.marginals
+    marginals = np.zeros(len(rigid)) if solution.status else solution.ineqlin.marginals
     tight = [name for name, one in zip(rigid, marginals, strict=True) if one < 0.0] or list(rigid)
-    told = listed([f"stops.{name}.gap: {pretty(rigid[name].stop.gap, LENGTH)}" for name in tight])
+    text = listed([f"stops.{name}.gap: {pretty(rigid[name].stop.gap, LENGTH)}" for name in tight])
     total = math.fsum(rigid[name].stop.gap for name in tight)
     raise InputError(
-        f"{told} leave no room between rigid stops, so there is no equilibrium (their sum is "
+        f"{text} leave no room between rigid stops, so there is no equilibrium (their sum is "
         f"{pretty(total, LENGTH)}); use gaps with a sum greater than 0"
     )

@@ -105,8 +105,8 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
         held = link.isolator.remembered(float(-assembly.closing(link) @ u))
         if held:
             memory[name] = held
-    found = {name: float(one) for name, one in zip(assembly.names, u, strict=True) if one}
-    return AssemblyState(found, memory=memory)
+    displacements = {name: float(one) for name, one in zip(assembly.names, u, strict=True) if one}
+    return AssemblyState(displacements, memory=memory)
 
 
 def check_balance(assembly: Assembly) -> None:
@@ -140,7 +140,7 @@ def check_balance(assembly: Assembly) -> None:
             row = np.append(sign * assembly.closing(link), np.zeros(extra))
             row[count + i] = -1.0
             limits.append(row[np.newaxis])
-    found = linprog(
+    solution = linprog(
         cost,
         A_ub=np.vstack(limits) if limits else None,
         b_ub=np.zeros(sum(len(one) for one in limits)) if limits else None,
@@ -148,14 +148,14 @@ def check_balance(assembly: Assembly) -> None:
         b_eq=np.zeros(len(equal)),
         bounds=[(-1.0, 1.0)] * count + [(0.0, None)] * extra,
     )
-    if found.status == 0 and found.fun < -1e-9:
+    if solution.status == 0 and solution.fun < -1e-9:
         moved = [
-            name for name, one in zip(assembly.names, found.x, strict=False) if abs(one) > 1e-6
+            name for name, one in zip(assembly.names, solution.x, strict=False) if abs(one) > 1e-6
         ]
         pushed = [name for name in moved if name in assembly.forces]
-        told = listed([f"forces.{one}: {pretty(assembly.forces[one], FORCE)}" for one in pushed])
+        text = listed([f"forces.{one}: {pretty(assembly.forces[one], FORCE)}" for one in pushed])
         raise InputError(
-            f"{told}; no link and no stop holds {listed(moved)} against "
+            f"{text}; no link and no stop holds {listed(moved)} against "
             f"{'this force' if len(pushed) == 1 else 'these forces'}, so there is no equilibrium; "
             "reduce the force, or add a link or a stop"
         )
@@ -316,14 +316,14 @@ def _share(problem: _Problem, u: Vector, way: Vector) -> float:
     def rise(share: float) -> float:
         at = u + share * way
         curved, _ = _forces_of_curved(problem, at)
-        found = float((problem.stiffness @ at + curved - problem.force) @ way)
+        slope = float((problem.stiffness @ at + curved - problem.force) @ way)
         depth, speed = problem.rows @ at - problem.gaps, problem.rows @ way
         bumper = problem.compliance > 0.0
         held = np.isfinite(problem.high) & ~bumper
-        found += float(
+        slope += float(
             (np.maximum(depth, 0.0) * speed)[bumper] @ (1.0 / problem.compliance[bumper])
         )
-        return found + float((np.sign(depth) * speed)[held] @ problem.high[held])
+        return slope + float((np.sign(depth) * speed)[held] @ problem.high[held])
 
     low, high = 0.0, 1.0
     if rise(high) <= 0.0:
@@ -387,7 +387,7 @@ def _complementary(problem: _Problem, k: Vector, rhs: Vector) -> Vector:
     factor = np.linalg.cholesky(a / np.outer(scale, scale) + 1e-9 * np.eye(len(a)))
     low, high = problem.low * scale, problem.high * scale
     fixed = high - low <= 0.0
-    found = np.zeros(len(a))
+    forces = np.zeros(len(a))
     if not fixed.all():
         free = ~fixed
         solved = lsq_linear(
@@ -397,8 +397,8 @@ def _complementary(problem: _Problem, k: Vector, rhs: Vector) -> Vector:
             method="bvls",
             tol=1e-15,
         )
-        found[free] = solved.x
-    return np.asarray(found / scale)
+        forces[free] = solved.x
+    return np.asarray(forces / scale)
 
 
 def _polished(

@@ -113,15 +113,15 @@ class Matrices(Model):
 def _names(names: Iterable[str] | None, count: int) -> tuple[str, ...]:
     if names is None:
         return tuple(f"dof_{i + 1}" for i in range(count))
-    found = [
+    labels = [
         check_part_name(one, f"names[{i}]") for i, one in enumerate(check_list(names, "names"))
     ]
-    for i, one in enumerate(found):
-        if one in found[:i]:
+    for i, one in enumerate(labels):
+        if one in labels[:i]:
             raise InputError(f"names[{i}]: {one!r} is used twice; use each name once")
-    if len(found) != count:
-        raise InputError(f"names: {len(found)} names for {count} degrees of freedom; pass {count}")
-    return tuple(found)
+    if len(labels) != count:
+        raise InputError(f"names: {len(labels)} names for {count} degrees of freedom; pass {count}")
+    return tuple(labels)
 
 
 def _rows(matrix: NDArray[np.float64]) -> Rows:
@@ -134,26 +134,26 @@ def _row(row: NDArray[np.float64]) -> tuple[float, ...]:
 
 def _matrix(value: Any, field: str, count: int | None, folder: Path) -> NDArray[np.float64]:
     """Return a symmetric matrix of finite numbers."""
-    found = _array(value, field, folder)
-    if found.ndim != 2 or found.shape[0] != found.shape[1] or not found.size:
+    matrix = _array(value, field, folder)
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or not matrix.size:
         raise InputError(
-            f"{field}: an array of the shape {found.shape}; pass a square matrix with one row per "
+            f"{field}: an array of the shape {matrix.shape}; pass a square matrix with one row per "
             "degree of freedom"
         )
-    if count is not None and len(found) != count:
+    if count is not None and len(matrix) != count:
         raise InputError(
-            f"{field}: {len(found)} rows, but the mass matrix has {count}; pass matrices of one "
+            f"{field}: {len(matrix)} rows, but the mass matrix has {count}; pass matrices of one "
             "size"
         )
-    difference = np.abs(found - found.T)
-    if difference.max() > _SYMMETRY * np.abs(found).max():
-        i, j = (int(one) for one in np.unravel_index(difference.argmax(), found.shape))
+    difference = np.abs(matrix - matrix.T)
+    if difference.max() > _SYMMETRY * np.abs(matrix).max():
+        i, j = (int(one) for one in np.unravel_index(difference.argmax(), matrix.shape))
         i, j = min(i, j), max(i, j)
         raise InputError(
-            f"{field}: not symmetric; row {i + 1}, column {j + 1} is {found[i, j]:.9g}, but row "
-            f"{j + 1}, column {i + 1} is {found[j, i]:.9g}; pass a symmetric matrix"
+            f"{field}: not symmetric; row {i + 1}, column {j + 1} is {matrix[i, j]:.9g}, but row "
+            f"{j + 1}, column {i + 1} is {matrix[j, i]:.9g}; pass a symmetric matrix"
         )
-    return found
+    return matrix
 
 
 def _check_definite(matrix: NDArray[np.float64], field: str, strict: bool = False) -> None:
@@ -187,14 +187,14 @@ def _check_definite(matrix: NDArray[np.float64], field: str, strict: bool = Fals
 
 
 def _vector(value: Any, count: int, folder: Path) -> NDArray[np.float64]:
-    found = np.squeeze(_array(value, "influence", folder))
-    found = found.reshape(-1) if found.ndim == 0 else found
-    if found.shape != (count,):
+    array = np.squeeze(_array(value, "influence", folder))
+    array = array.reshape(-1) if array.ndim == 0 else array
+    if array.shape != (count,):
         raise InputError(
-            f"influence: an array of the shape {found.shape}; pass {count} numbers, one per degree "
+            f"influence: an array of the shape {array.shape}; pass {count} numbers, one per degree "
             "of freedom"
         )
-    return found
+    return array
 
 
 def _array(value: Any, field: str, folder: Path) -> NDArray[np.float64]:
@@ -207,20 +207,20 @@ def _array(value: Any, field: str, folder: Path) -> NDArray[np.float64]:
         if is_list(part) and isinstance(part, Sized) and len(part) > _MOST:
             raise InputError(f"{field}: {len(part)} numbers in a row; use at most {_MOST}")
     try:
-        given = np.asarray(value)
-        if given.dtype.kind not in "iuf":
+        raw = np.asarray(value)
+        if raw.dtype.kind not in "iuf":
             raise ValueError
-        found = np.array(given, dtype=np.float64)
+        array = np.array(raw, dtype=np.float64)
     except (ValueError, TypeError, OverflowError):
         raise InputError(
             f"{field}: {shown(value)} is not an array of real numbers; pass numbers in SI units in "
             "rows of equal length, or the path of an npz, npy or CSV file"
         ) from None
-    if not np.isfinite(found).all():
+    if not np.isfinite(array).all():
         raise InputError(f"{field}: an entry is not finite; pass finite numbers")
-    if found.size and np.abs(found).max() > 1e100:
-        raise InputError(f"{field}: {np.abs(found).max():g} is too large; pass at most 1e+100")
-    return found
+    if array.size and np.abs(array).max() > 1e100:
+        raise InputError(f"{field}: {np.abs(array).max():g} is too large; pass at most 1e+100")
+    return array
 
 
 def _is_npz(value: Any) -> TypeGuard[str | Path]:
@@ -232,8 +232,8 @@ def _holds(file: Any, name: str, folder: Path) -> bool:
     if file is None:
         return False
     path = folder / check_path(file, name)
-    found: Mapping[str, Any] = _open(path, name)
-    return name in found
+    archive: Mapping[str, Any] = _open(path, name)
+    return name in archive
 
 
 def _open(path: Path, field: str) -> Any:

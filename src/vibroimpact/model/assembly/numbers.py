@@ -58,7 +58,7 @@ def numbers(assembly: Assembly) -> AssemblyNumbers:
 def made_of(assembly: Assembly) -> AssemblyNumbers:
     """Make the numbers of an assembly, whose arrays are read-only."""
     linear = [link for link in assembly.links.values() if link.law.linear]
-    found = AssemblyNumbers(
+    all_numbers = AssemblyNumbers(
         assembly.names,
         assembly.mass_matrix,
         assembly.matrix_of_links("damping", linear) + assembly.rule_damping,
@@ -72,10 +72,10 @@ def made_of(assembly: Assembly) -> AssemblyNumbers:
         ),
         tuple(_part(assembly, name, stop) for name, stop in assembly.stops.items()),
     )
-    for one in found:
+    for one in all_numbers:
         if isinstance(one, np.ndarray):
             one.setflags(write=False)
-    return found
+    return all_numbers
 
 
 def _part(assembly: Assembly, name: str, link: Link) -> PartNumbers:

@@ -93,14 +93,14 @@ class AssemblyState(Model):
             return data
         read = dict(data)
         for field, accepts in _ACCEPTS.items():
-            given = data.get(field)
-            given = {} if given is None else given
-            if not isinstance(given, Mapping):
+            table = data.get(field)
+            table = {} if table is None else table
+            if not isinstance(table, Mapping):
                 raise InputError(
-                    f"{field}: {shown(given)} is not a mapping from names, as the other values are"
+                    f"{field}: {shown(table)} is not a mapping from names, as the other values are"
                 )
             read[field] = FrozenMapping(
-                {str(name): accepts.at(one, f"{field}.{name}") for name, one in given.items()}
+                {str(name): accepts.at(one, f"{field}.{name}") for name, one in table.items()}
             )
         touching = data.get("touching")
         if touching is not None:

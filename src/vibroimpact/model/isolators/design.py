@@ -36,7 +36,7 @@ _ACCEPTS = {
 }
 
 
-def design(**given: object) -> list[float]:
+def design(**values: object) -> list[float]:
     """Read design values by name, in SI units.
 
     Raises
@@ -44,13 +44,13 @@ def design(**given: object) -> list[float]:
     InputError
         If a value is not finite, has a wrong unit or lies outside its bounds.
     """
-    found = []
-    for name, value in given.items():
+    numbers = []
+    for name, value in values.items():
         number = _ACCEPTS[name].at(value, name)
         if name.endswith("damping_ratio"):
             doubt_damping_ratio(number, name)
-        found.append(number)
-    return found
+        numbers.append(number)
+    return numbers
 
 
 def force_of_strength(mass: float, strength: object) -> float:
@@ -97,23 +97,23 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     asked = [(name, _arguments(law, name)) for name in law.designs]
     asked.sort(key=lambda one: -sum(p.name in table for p in one[1]))
     name, own = asked[0] if asked else ("", [])
-    given = [p.name for p in own if p.name in table]
-    if not given:
+    keys = [p.name for p in own if p.name in table]
+    if not keys:
         return table
     _check_keys(table, law)
     if mass is None:
         raise DependentError(
-            f'{given[0]}: requires the mass of the oscillator; add the mass, such as "550 kg"'
+            f'{keys[0]}: requires the mass of the oscillator; add the mass, such as "550 kg"'
         )
     for p in own:
         if p.default is p.empty and p.name not in table:
             if p.name == "period" and "stiffness" in table:
                 raise InputError(
-                    f"{given[0]}: given together with stiffness; replace stiffness by period, or "
-                    f"{given[0]} by damping"
+                    f"{keys[0]}: given together with stiffness; replace stiffness by period, or "
+                    f"{keys[0]} by damping"
                 )
             raise InputError(
-                f"{p.name}: missing, but {given[0]} requires it; add {_ACCEPTS[p.name].words()}"
+                f"{p.name}: missing, but {keys[0]} requires it; add {_ACCEPTS[p.name].words()}"
             )
     values = {key: value for key, value in table.items() if key != "kind"}
     return getattr(law, name)(mass, **values)
@@ -142,11 +142,11 @@ def keys_of_mass(table: Mapping[str, Any], law: type[IsolatorLaw]) -> list[str]:
         If a strength is invalid.
     """
     own = design_keys(law)
-    given = [key for key in table if key in own and key not in law.model_fields]
+    keys = [key for key in table if key in own and key not in law.model_fields]
     free = {"yield_displacement"}
-    if "strength" in given and force_of_strength(0.0, table["strength"]):
+    if "strength" in keys and force_of_strength(0.0, table["strength"]):
         free.add("strength")  # a force; a share of the weight of no mass is 0
-    return [key for key in given if key not in free] or given
+    return [key for key in keys if key not in free] or keys
 
 
 def _arguments(law: type[IsolatorLaw], name: str) -> list[inspect.Parameter]:
