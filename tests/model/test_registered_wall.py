@@ -90,7 +90,8 @@ from vibroimpact.figures.assembly_histories import impulses
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.stops.falling import FallingStop
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
-from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
+from vibroimpact.response.engine_input import as_state, engine_state
+from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.motion_phases import parting_velocity
 
 SHAKEN = vi.Harmonic(1.0, 1.0 / (2.0 * math.pi))

@@ -106,7 +106,8 @@ def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, A
     """What a dataset says of motions, in this order."""
     along = ("attractor",)
     shown = [one.points[: one.settled_motion.period or POINTS] for one in known]
-    points = np.vstack([*shown, np.empty((0, 5))])
+    states = engine_system(oscillator)
+    points = np.vstack([*shown, np.empty((0, states.parts))])
     return {
         **kinds([one.motion for one in known]),
         **{name: (along, np.array([float(a.motion[name]) for a in known])) for name in _KEPT},
@@ -124,9 +125,7 @@ def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, A
             "point",
             np.repeat(np.arange(len(known)), [len(one) for one in shown]),
         ),
-        **engine_system(oscillator).section_variables(
-            points[:, :4] * [1.0, 1.0, 1.0, -1.0], ("point",)
-        ),
+        **states.section_variables(points * states.signs, ("point",)),
     }
 
 

@@ -56,8 +56,8 @@ def sweep(
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events, transient
         See `settling.settle`.
-    results, states : ndarray, shape (frequency, hold.MEASURED + measures), (frequency, state.width)
-        Written: the measurements, and the state at the end of each hold.
+    results, states : ndarray, shape (frequency, MEASURED + measures), (frequency, state.width)
+        Written: the measurements (`steady_response`), and the state at the end of each hold.
     progress : ndarray, shape (2,) or (3,)
         [0] is raised by one after each hold; the sweep stops when [1] becomes nonzero; [2] is how
         many cycles of the hold are done.

@@ -44,7 +44,7 @@ def evaluate(law: Any, symbols: tuple[int, ...], which: int, x: Any, v: Any, sig
     first = par.OWN + par.OWN_WIDTH * which + par.OWN_FIRST
 
     def numbers(i: int) -> Any:
-        return law.own(first + i)
+        return law.formula_number(first + i)
 
     stack: list[Any] = []
     rest = iter(symbols)

@@ -181,7 +181,7 @@ def valued(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
     law = Varying(machine)
     moved = Varied(u, {"u": 1.0}), Varied(v, {"v": 1.0})
     force = program.evaluate(law, symbols, which, *moved, (side, way))
-    per_mass = law.own(par.OWN + par.OWN_PER_MASS)
+    per_mass = law.formula_number(par.OWN + par.OWN_PER_MASS)
     for i, one in enumerate((force.value, force.by.get("u", 0.0), force.by.get("v", 0.0))):
         machine.store(at.OWN_FORCE + i, one * per_mass)
 
