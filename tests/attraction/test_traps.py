@@ -66,7 +66,7 @@ def test_an_ellipse_is_no_smaller_than_it_need_be():
 @pytest.mark.full
 def test_chaotic_motions_are_held_by_cells():
     search = searched(1.06)
-    assert [one.found.period for one in search.known] == [0, 0]
+    assert [one.settled_motion.period for one in search.known] == [0, 0]
     assert all(one.traps.shape == (0, trap_width(5)) for one in search.known)
     cells, grid = search.traps.cells, search.traps.grid
     generator = np.random.default_rng(2)
@@ -98,9 +98,9 @@ def test_motions_of_long_periods_have_a_trap_a_point():
     points[:, :2] = generator.uniform([-1.0, -1.2], [0.0, 1.2], (len(points), 2))
     found = search.label(points)
     assert (found.owner >= 0).all()
-    assert {8, 12} <= {one.found.period for one in search.known}
+    assert {8, 12} <= {one.settled_motion.period for one in search.known}
     for one in search.known:
-        assert len(one.traps) == one.found.period
+        assert len(one.traps) == one.settled_motion.period
     # The same without any trap.
     ends = follow(search.stage, points, None, NO_TRAPS, 3000).states[:, 2:4]
     for number, one in enumerate(search.known):
@@ -152,7 +152,7 @@ def test_what_settles_on_a_known_motion_is_not_described_again(monkeypatch):
         raise AssertionError("a known motion was described once more")
 
     search = restituting()
-    states = np.array([one.found.state for one in search.known])
+    states = np.array([one.settled_motion.state for one in search.known])
     went = follow(search.stage, None, states, NO_TRAPS, 3).states
     monkeypatch.setattr("vibroimpact.attraction.find_attractors.attractor", never)
     assert [search._end_of(state)[0] for state in went] == [0, 1]

@@ -17,10 +17,10 @@ from samples import sample
 pytest.importorskip("pty", reason="no pseudo-terminals here")
 
 ENTRY = """\
-from vibroimpact.engine.rigless_entry import single
+from vibroimpact.engine.rigless_entry import rigless_entry
 
 
-@single("f8(f8[::1])")
+@rigless_entry("f8(f8[::1])")
 def first(given, rig):
     return rig[0]
 """

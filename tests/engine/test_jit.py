@@ -17,10 +17,10 @@ from vibroimpact.engine import native
 from vibroimpact.engine.flow_dispatch import ADVANCE
 
 ENTRY = """\
-from vibroimpact.engine.rigless_entry import single
+from vibroimpact.engine.rigless_entry import rigless_entry
 
 
-@single("f8(f8[::1])")
+@rigless_entry("f8(f8[::1])")
 def first(given, rig):
     return rig[0]
 """
@@ -41,10 +41,10 @@ for function in (*GROUPS.values(), *entries()):
 NOTICE = "compiling the engine"
 
 SMALL = """\
-from vibroimpact.engine.rigless_entry import Single
+from vibroimpact.engine.rigless_entry import RiglessEntry
 from vibroimpact.engine.parameters import free_rig
 first = eval("lambda given, rig: rig[0]")
-assert Single(first, "f8(f8[::1])")(free_rig()) == 1.0
+assert RiglessEntry(first, "f8(f8[::1])")(free_rig()) == 1.0
 """
 """A small entry, where what is tested is the place where its code goes."""
 
@@ -74,7 +74,7 @@ def test_an_entry_is_compiled_for_one_signature(tmp_path: Path) -> None:
     refused = """
 kept = free_rig()
 kept.flags.writeable = False
-made = Single(first, "f8(f8[::1])")
+made = RiglessEntry(first, "f8(f8[::1])")
 made(free_rig())
 try:
     made(kept)

@@ -23,7 +23,7 @@ add = JITCPUCodegen._add_module
 JITCPUCodegen._add_module = lambda self, module: (made.append(module.name), add(self, module))[1]
 
 from vibroimpact.engine import kernel_linking
-from vibroimpact.engine.rigless_entry import Single
+from vibroimpact.engine.rigless_entry import RiglessEntry
 from vibroimpact.engine.jit import kernel
 
 kernel_linking.KNOWN = sys.argv[1]
@@ -36,7 +36,7 @@ def first(given, x):
     return cubed(x) + cubed(x + 1.0)
 
 made.clear()
-print(Single(first, "f8(f8)")(0.3).hex())
+print(RiglessEntry(first, "f8(f8)")(0.3).hex())
 print(sum("cubed" in one for one in made), sum("first" in one for one in made))
 own = numba.njit(lambda x: x + 1.0)  # of a user of the package
 print(own(2.0))

@@ -157,7 +157,7 @@ def test_files_keep_the_rig_without_units(tmp_path):
 def test_a_study_file_states_that_a_number_is_a_force(tmp_path):
     pushed = vi.Rig(STATED.oscillator, vi.Harmonic(0.5, 0.2, of="force"))
     session = Session(begin(pushed))
-    assert "force amplitude" in json.dumps(session.told())
+    assert "force amplitude" in json.dumps(session.last_reports())
     path = tmp_path / "pushed.toml"
     path.write_bytes(base64.b64decode(session.file("study")["bytes"]))
     again = begin(path)

@@ -71,7 +71,7 @@ def test_frequencies_in_steps_are_a_sweep():
     stepped(every, None, Settling(), held.append, np.zeros(2, dtype=np.int64))
     swept = vi.sweep(CASE, grid, "forward", phase=0.3).isel(direction=0)
     np.testing.assert_array_equal(
-        [one.found.state[ONE_MASS.displacement()] for one in held],
+        [one.motion.state[ONE_MASS.displacement()] for one in held],
         swept["section"].sel(component="displacement"),
     )
-    np.testing.assert_array_equal([one.found.cycles for one in held], swept["cycles"])
+    np.testing.assert_array_equal([one.motion.cycles for one in held], swept["cycles"])

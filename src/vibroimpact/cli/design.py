@@ -114,9 +114,8 @@ def design(
     from vibroimpact.facts import rig as rig_facts
 
     named_records = reading.read(records or records_of_design(rig))
-    what = subject(
-        rig, changes, output.name, shaken=next(iter(named_records.values()), None), masses=True
-    )
+    first = next(iter(named_records.values()), None)
+    what = subject(rig, changes, output.name, shaken=first, masses=True)
     several = is_assembly(what)
     if several:
         refuse(what, best=best)

@@ -398,9 +398,9 @@ class Oscillator(System):
 
     @property
     def may_have_units(self) -> bool:
-        """Whether a unit that is stated elsewhere makes a rig without units one in SI units.
+        """Whether a unit stated elsewhere makes a rig without units one in SI units.
 
-        This is so if the rig was recognised by its numbers, and False if ``units`` was passed.
+        False if ``units`` was passed.
         """
         return self.of_ones and "units" not in self.model_fields_set
 
