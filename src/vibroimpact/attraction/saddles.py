@@ -71,7 +71,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     point, saddles = orbit.point, []
     for _ in range(orbit.section.period):
         status, here, _ = evaluated(full, relaxed(point), 0.0)
-        values, vectors = np.linalg.eig(here.own[:2, :2])
+        values, vectors = np.linalg.eig(here.map_derivative[:2, :2])
         order = np.argsort(-np.abs(values))
         values, vectors = values[order], vectors[:, order]
         saddle = abs(values[0]) > 1.0 > abs(values[1]) and not np.iscomplex(values).any()

@@ -104,7 +104,7 @@ class _Chains:
         while i < len(self.chains):
             self.tell(max(total / self.measure.longest, self.allowance.used / self.allowance.all))
             if self.allowance.spent:
-                self._cut(i)
+                self._truncate(i)
                 return CYCLES
             before, here = self.chains[i - 1], self.chains[i]
             preimage = self._preimage(here[level - 1], before[level], before[level - 1])
@@ -113,7 +113,7 @@ class _Chains:
                 gap = float(np.linalg.norm(self.measure.scaled(preimage - before[level])))
             if preimage is None or gap > self.measure.spacing:
                 if not self._insert(i, level):
-                    self._cut(i)
+                    self._truncate(i)
                     return (
                         "the curve cannot be continued, because the stroboscopic map has a corner "
                         "or an edge there"
@@ -122,10 +122,10 @@ class _Chains:
             here.append(preimage)
             total += gap
             if not self.measure.within(preimage[None], _ROOM)[0]:
-                self._cut(i + 1)
+                self._truncate(i + 1)
                 return "the curve runs too far out of the window"
             if total > self.measure.longest:
-                self._cut(i + 1)
+                self._truncate(i + 1)
                 return LONGEST
             i += 1
         return ""
@@ -154,7 +154,7 @@ class _Chains:
         self.chains.insert(i, chain)
         return True
 
-    def _cut(self, i: int) -> None:
+    def _truncate(self, i: int) -> None:
         del self.parameters[i:], self.chains[i:]
 
     def _preimage(self, image: _Array, near: _Array, its_image: _Array) -> _Array | None:
@@ -202,4 +202,4 @@ class _Chains:
         status, here, image = evaluated(self.section, begun, 0.0)
         if status is not Status.DONE or image[:5][self.hidden].any():
             return None
-        return image[:2], here.own[:2, :2]
+        return image[:2], here.map_derivative[:2, :2]

@@ -91,13 +91,13 @@ class PreparedRig(NamedTuple):
         pairs: list[tuple[HoldRows, _Array]] = []
         shaking = self.shaking
 
-        def hold_it(tally: Tally) -> None:
+        def hold_frequency(tally: Tally) -> None:
             sizes, places = np.array([shaking.amplitude]), np.array([shaking.frequency])
             pairs.append(
                 sweep_holds(self.vector, sizes, places, shaking.phase, state, settling, tally)
             )
 
-        watched(hold_it, settling.max_cycles, progress, CYCLES)
+        watched(hold_frequency, settling.max_cycles, progress, CYCLES)
         ((rows, reached),) = pairs
         return rows[0], reached[0]
 
@@ -134,7 +134,7 @@ class PreparedRig(NamedTuple):
         rows = np.empty((cycles, lyapunov.SECTION + self.states.parts))
         done = 0
 
-        def keep(some: _Array) -> None:
+        def add_rows(some: _Array) -> None:
             nonlocal done
             rows[done : done + len(some)] = some
             done += len(some)
@@ -142,7 +142,7 @@ class PreparedRig(NamedTuple):
         status = self.grow(
             state,
             cycles,
-            keep,
+            add_rows,
             max_events,
             transient=transient,
             discard=discard,
@@ -154,7 +154,7 @@ class PreparedRig(NamedTuple):
         self,
         state: _Array,
         cycles: int,
-        keep: Callable[[_Array], None],
+        add_rows: Callable[[_Array], None],
         max_events: int = MAX_EVENTS,
         *,
         transient: int = 0,
@@ -166,7 +166,7 @@ class PreparedRig(NamedTuple):
 
         Parameters
         ----------
-        keep
+        add_rows
             Called with the next rows, which are overwritten afterwards.
         count
             Perturbations whose growth is seen.
@@ -193,7 +193,7 @@ class PreparedRig(NamedTuple):
                 rows,
             )
             if after > 0:
-                keep(rows[: after - max(at, 0)])
+                add_rows(rows[: after - max(at, 0)])
             at = after
         if progress and at == cycles:
             progress(cycles - first, cycles - first)

@@ -189,7 +189,7 @@ def _history(
     finished = run.follow(progress)
     status = states.ended(run.status, run.out, vector)
     if run.status is not Status.DONE:
-        run.cut(finished)
+        run.truncate(finished)
         ends = finished * (record.step if record else 1.0)
         where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
         too_many = run.status is Status.TOO_MANY_EVENTS

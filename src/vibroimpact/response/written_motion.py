@@ -108,6 +108,6 @@ class WrittenMotion:
         forcing = (shaking.amplitude, shaking.frequency, self.phase, self.state, float(at), end)
         return (*forcing, self.samples, self.max_events)
 
-    def cut(self, finished: int) -> None:
+    def truncate(self, finished: int) -> None:
         """Leave out the samples after so many sections."""
         self.out = self.out[:, : finished * self.samples]

@@ -115,7 +115,7 @@ def _growing(orbit: Orbit) -> int:
 
 def minus_one(orbit: Orbit) -> float:
     """det(M − I) of an orbit's map: zero where an eigenvalue is 1."""
-    matrix = orbit.own
+    matrix = orbit.map_derivative
     with np.errstate(all="ignore"):
         return float(np.linalg.det(matrix - np.eye(len(matrix))))
 

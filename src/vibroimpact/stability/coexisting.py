@@ -185,7 +185,7 @@ def find_motions(
     options = (samples, window, exponent_cycles, max_events)
     followed = counted(progress) or (lambda _: None)
 
-    def go(name: str, start: _Start) -> None:
+    def follow_start(name: str, start: _Start) -> None:
         steady_motion = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
         if steady_motion.status in (Status.DONE, Status.NOT_SETTLED):
             steady_motion = _at_phase(steady_motion, excitation, max_events)
@@ -195,23 +195,23 @@ def find_motions(
             given_up.setdefault(steady_motion.status, (start, []))[1].append(name)
         followed(name)
 
-    go("rest", states.read(None).replace(phase=excitation.phase))
+    follow_start("rest", states.read(None).replace(phase=excitation.phase))
     for name, start in arrivals(rig, frequencies, max_cycles, max_events).items():
-        go(name, start)
+        follow_start(name, start)
     for name, state in named.items():
-        go(name, states.read(state))
+        follow_start(name, states.read(state))
     size = max((reach(one.settled_motion, one.settled_motion.state) for one in kept), default=0.0)
     size = size or reach_at_rest(rig)
     generator = np.random.default_rng(seed)
     for number in range(random):
         drawn = random_state(rig, generator, size, excitation.angular_frequency)
-        go(f"random {number + 1}", nearest_state(rig, drawn))
+        follow_start(f"random {number + 1}", nearest_state(rig, drawn))
     if kept and kept[0].settled_motion.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = image_of(one.settled_motion, max_events)
                 if image is not None:
-                    go("mirror image", image.state)
+                    follow_start("mirror image", image.state)
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"].max()))
     motions = [_labelled(one, max_events) for one in kept]
     for first_start, names in given_up.values():

@@ -146,7 +146,7 @@ class Orbit:
         return tuple(count + counts[other] for count, other in zip(counts, partners, strict=True))
 
     @property
-    def own(self) -> _Array:
+    def map_derivative(self) -> _Array:
         """The map's derivative; of the isolator's memory only where it has one."""
         states = self.section.family.states
         return self.carried[:states, :states].T
@@ -154,7 +154,7 @@ class Orbit:
     @cached_property
     def map_multipliers(self) -> NDArray[np.complex128]:
         """Eigenvalues of the map's derivative, the largest first."""
-        eigenvalues = np.linalg.eigvals(self.own).astype(complex)
+        eigenvalues = np.linalg.eigvals(self.map_derivative).astype(complex)
         return eigenvalues[np.argsort(-np.abs(eigenvalues), kind="stable")]
 
     @property
@@ -168,7 +168,7 @@ class Orbit:
     @property
     def monodromy(self) -> _Array:
         """Derivative of the state after one period."""
-        matrix = self.own
+        matrix = self.map_derivative
         return matrix @ matrix if self.section.mirror else matrix
 
     @property

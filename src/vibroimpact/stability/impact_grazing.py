@@ -197,7 +197,7 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
 
 def _side_of_fold(orbit: Orbit) -> float:
     """Sign of det(M − I) of an orbit's map, which changes at a fold."""
-    return float(np.sign(np.linalg.det(orbit.own - np.eye(len(orbit.own)))))
+    return float(np.sign(np.linalg.det(orbit.map_derivative - np.eye(len(orbit.map_derivative)))))
 
 
 def _at(seen: Sequence[tuple[float, _Array]], w: float) -> _Array:

@@ -130,7 +130,7 @@ class File:
             if _TEXT.search(self.lines[at]):
                 message = f"the values end here after {read}; pass a complete file, or correct the "
                 raise self._damaged(first, at, width) or self.refused(at, f"{message}header")
-            parts += self._cut(at, width)
+            parts += self._split_line(at, width)
             at += 1
         try:
             values = np.array(parts, dtype=np.float64)
@@ -146,7 +146,7 @@ class File:
             )
         return values, at
 
-    def _cut(self, at: int, width: int | None) -> list[str]:
+    def _split_line(self, at: int, width: int | None) -> list[str]:
         line = self.lines[at].rstrip()
         if not width:  # numbers touch each other where they are negative
             return TOUCHING.sub(" ", line).split()
@@ -155,7 +155,7 @@ class File:
     def _damaged(self, first: int, behind: int, width: int | None) -> InputError | None:
         """Find a value that is not finite, and where; None if all are finite."""
         for at in range(first, behind):
-            for part in self._cut(at, width):
+            for part in self._split_line(at, width):
                 try:
                     self._finite(at, part)
                 except InputError as error:
@@ -206,7 +206,7 @@ class File:
 
     def _leading(self, at: int, width: int | None) -> int:
         """How many numbers a line begins with."""
-        cells = self._cut(at, width)
+        cells = self._split_line(at, width)
         for number, cell in enumerate(cells):
             try:
                 float(cell)
@@ -252,7 +252,9 @@ class File:
         while last > first and not self.lines[last - 1].strip():
             last -= 1
         for at in range(first, last):
-            cells = self._cut(at, width) if width else self.lines[at].strip().split(separator)
+            cells = (
+                self._split_line(at, width) if width else self.lines[at].strip().split(separator)
+            )
             if len(cells) != columns:
                 message = f"the row has {len(cells)} columns, but the header announces {columns}; "
                 raise self.refused(at, f"{message}pass a complete file")
