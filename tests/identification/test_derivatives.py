@@ -48,7 +48,7 @@ def by_the_implicit_function_theorem(case, frequency, name, state):
     fam = family(vi.Rig(case.oscillator, shaken(case, frequency)), name)
     now = fam.value
     found = first_orbit(fam, (0.5 * now, 1.5 * now), vi.State(*state), 1, symmetric=False)
-    states = len(found.own)
+    states = len(found.map_derivative)
     step = 1e-6 * now
 
     def moved(by):
@@ -61,7 +61,7 @@ def by_the_implicit_function_theorem(case, frequency, name, state):
     along[-1] = step
     images = [evaluated(found.section, moved(s * along), found.facts[MODE])[2] for s in (1, -1)]
     of_parameter = (images[0] - images[1])[:states] / 2.0
-    along[:states] = np.linalg.solve(np.eye(states) - found.own, of_parameter)
+    along[:states] = np.linalg.solve(np.eye(states) - found.map_derivative, of_parameter)
     ends = [measured(found, moved(s * along)) for s in (1, -1)]
     return (ends[0] - ends[1]) / (2e-6 * measured(found, found.point))
 
