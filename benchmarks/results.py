@@ -63,8 +63,8 @@ def margins() -> Iterator[tuple[str, float]]:
         for row in table:
             if target := _TARGET.match(row.get("Target", "")):
                 value, asked = number(row["Value"].split("=")[-1]), number(target[2])
-                buffer = asked / value if target[1] in ("under", "at most") else value / asked
-                yield f"{_short(heading)}: {row['Measured']}", buffer
+                margin = asked / value if target[1] in ("under", "at most") else value / asked
+                yield f"{_short(heading)}: {row['Measured']}", margin
 
 
 def _short(heading: str) -> str:

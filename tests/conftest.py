@@ -21,12 +21,14 @@ def python_of(dispatcher: Any) -> Any:
     return dispatcher
 
 
-def room_of(stack: Callable[[int], Any]) -> Callable[[int], Any]:
+def buffer_of(stack: Callable[[int], Any]) -> Callable[[int], Any]:
     """Let what gives room on the stack of a compiled kernel give an array in Python."""
 
     def make(size: int) -> Any:
         buffer = stack(size)
-        buffer.__class__ = type("Room", (type(buffer),), {"__call__": lambda self: np.empty(size)})
+        buffer.__class__ = type(
+            "Buffer", (type(buffer),), {"__call__": lambda self: np.empty(size)}
+        )
         return buffer
 
     return make
@@ -49,7 +51,7 @@ if NUMBA and native.find_library():
     jit._within = python_of
     from vibroimpact.engine import memory
 
-    memory.stack = room_of(memory.stack)
+    memory.stack = buffer_of(memory.stack)
     memory.workspace = memory.stack(memory.TERMS)
 
 # The first example of a test imports and compiles: its time says nothing of the test.

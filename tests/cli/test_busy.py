@@ -67,7 +67,7 @@ def seen(code: str, folder: Path) -> str:
 def test_a_bar_moves_while_the_engine_is_compiled(tmp_path, inside) -> None:
     text = seen(COMPILE.format(inside=inside), tmp_path)
     assert text.count("compiling the engine") == 1
-    frames = re.findall(r"compiling first for Alone.*?\d:\d\d:\d\d", text)
+    frames = re.findall(r"compiling first for NoRig.*?\d:\d\d:\d\d", text)
     assert len(frames) > 2, text  # drawn again and again
     assert ("sweep" in text) == inside
     # What was compiled is loaded: nothing moves.

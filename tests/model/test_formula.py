@@ -255,7 +255,7 @@ def test_softening_and_bounded_laws_know_their_limits() -> None:
         Oscillator(1.0, softening, force=7.0)
 
 
-def test_the_model_and_the_engine_have_the_same_buffer() -> None:
+def test_the_model_and_the_engine_have_the_same_limits() -> None:
     assert set(FUNCTIONS) - {"abs"} <= set(SYMBOLS)
     nine = {f"f{i}": i + 0.5 for i in range(5)} | {f"b{i}": i + 0.25 for i in range(4)}
     with pytest.raises(InputError, match="formula: it has 9 numbers; shorten it to at most 8, not"):

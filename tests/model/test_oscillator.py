@@ -80,7 +80,7 @@ def test_a_restitution_lies_between_0_and_1(bad):
 
 
 @pytest.mark.parametrize(("right", "left"), [(0.0, 0.0), (-0.001, 0.001), (0.002, -0.003)])
-def test_two_rigid_stops_need_buffer(right, left):
+def test_two_rigid_stops_need_space_between_them(right, left):
     with pytest.raises(
         InputError, match=r"right.gap: .* leave no room .*; use gaps .* greater than 0"
     ):

@@ -213,7 +213,7 @@ def system_parameters(system: System) -> dict[str, Any]:
     The entry ``assumptions`` is what was assumed to read it, and left out if nothing was.
     """
     assumed = {"assumptions": list(system.assumptions)} if system.assumptions else {}
-    return {system.word: system.model_dump(), **assumed}
+    return {system.table_name: system.model_dump(), **assumed}
 
 
 def system_from(parameters: Mapping[str, Any]) -> System:

@@ -170,8 +170,8 @@ def peaks(
     runs = len(shaken) * count
     steps = count * sum(len(one.record.acceleration) - 1 for one in shaken)
     report = partial(_by_run, progress, runs) if progress and not by_line else progress
-    each_found = each(task, items, steps=steps, threads=threads, progress=report)
-    for (n, some), mine in zip(parts, each_found, strict=True):
+    rows_of_parts = each(task, items, steps=steps, threads=threads, progress=report)
+    for (n, some), mine in zip(parts, rows_of_parts, strict=True):
         rows[n, some] = mine
     if shaken and shaken[0].system.by_mass:
         return peaks_of_assemblies(rows, shaken[0].layout)

@@ -2,7 +2,7 @@
 
 A trap is an ellipsoid around a point of the section, or a set of cells of the plane of u and u̇ of
 the first mass.
-That nothing leaves it is for others to show (`vibroimpact.attraction.traps`).
+That nothing leaves it is for others to show (`attraction.absorbing_ellipsoids`).
 """
 
 from __future__ import annotations

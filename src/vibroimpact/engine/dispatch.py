@@ -11,8 +11,8 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
 
     begin(plan, motion, length), has_piece(plan, cursor), next_piece(plan, cursor)
     write_cursor(plan, cursor, buffer), read_cursor(plan, buffer)  a cursor in memory
-    bound_window(plan, cursor, before, seen, room)  bounds over a window of pieces
-    enclosed(plan, cursor, room)            between which bounds a piece lies, then
+    bound_window(plan, cursor, before, seen, buffer)  bounds over a window of pieces
+    enclosed(plan, cursor, buffer)          between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
     sample_stretch(plan, cursor, before, …)  the motion at instants of a stretch
     coordinate(plan, motion)                the mode's own

@@ -288,7 +288,7 @@ def measure_orbit(
     max_events: int,
     result: Vector,
 ) -> int:
-    """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
+    """Exact extremes and contact counts of an orbit, as `steady_response.measure` writes them."""
     plan = planned(memory, system)
     frequency = system[flow.numbers(plan) + 1]
     flow.build(plan, system[flow.numbers(plan)], 2.0 * math.pi * frequency)

@@ -83,7 +83,7 @@ class Oscillator(System):
         constant force.
     """
 
-    word = "oscillator"
+    table_name = "oscillator"
     by_mass = False
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 

@@ -355,7 +355,7 @@ class Rig:
 
     def __str__(self) -> str:
         with written_for(self):
-            return f"Rig({self.system.word}={self.system}, shaking={self._shaking_text()})"
+            return f"Rig({self.system.table_name}={self.system}, shaking={self._shaking_text()})"
 
     def _repr_html_(self) -> str:
         title = "Rig" if self.name is None else f"Rig {self.name}"

@@ -229,8 +229,8 @@ def _tables(system: System) -> dict[str, dict[str, Any]]:
     every = system.model_dump(exclude_none=True)
     parts = {name: one for name, one in every.items() if system.by_mass and isinstance(one, dict)}
     values = {name: one for name, one in every.items() if name not in parts}
-    whole = {system.word: values} if values else {}
-    return whole | {f"{system.word}.{name}": one for name, one in parts.items()}
+    whole = {system.table_name: values} if values else {}
+    return whole | {f"{system.table_name}.{name}": one for name, one in parts.items()}
 
 
 def _lines(table: Mapping[str, Any]) -> list[str]:

@@ -29,7 +29,7 @@ class System(Model):
     modules ask for these members, and never which of the two a system is. What the engine and the
     datasets need in addition is `EngineSystem` of `response/engine_system.py`.
 
-    - ``word``: name of its table in study files and in the parameters of datasets.
+    - ``table_name``: name of its table in study files and in the parameters of datasets.
     - ``by_mass``: whether results have a value for each mass, along the dim ``mass``. Otherwise
       they are those of one mass, without this dim.
     - ``units``, ``may_have_units``: the units of its numbers.
@@ -43,7 +43,7 @@ class System(Model):
     - ``rows``, ``_picture``: its values as text, and a picture.
     """
 
-    word: ClassVar[str]
+    table_name: ClassVar[str]
     by_mass: ClassVar[bool]
 
     if TYPE_CHECKING:  # a field of the one class is a property of the other

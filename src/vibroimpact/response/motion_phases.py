@@ -182,7 +182,7 @@ def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False)
             "motion: it is of an Assembly of several masses, which this function does not accept; "
             "draw it with figures.mass_histories, contact_forces or pair_portrait"
         )
-    system = validate(kind, parameters[kind.word], f"motion.{kind.word}")
+    system = validate(kind, parameters[kind.table_name], f"motion.{kind.table_name}")
     if "record" in parameters:
         origin = Origin(system, shaken_by(motion, parameters["record"]), math.nan, False)
         if not records:

@@ -98,7 +98,7 @@ def _turn(a: Vector, order: int, low: float, high: float) -> float:
 
 @not_inlined
 def extend_range(plan: Vector, a: Vector, order: int, buffer: Vector) -> None:
-    """Widen a range, the two numbers of `room`, by the values of a power series on [0, 1].
+    """Widen a range, the two numbers of `buffer`, by the values of a power series on [0, 1].
 
     A part on which the differences of the Bernstein coefficients change their sign once has one
     extreme in between; others are halved.

@@ -247,7 +247,7 @@ def sample_stretch(
         The motion at the stretch's start, which is at the time t (s).
     step, i
         The first instant is the time i · step (s), and they are a step apart.
-    series, room
+    series, buffer
         Written: the mode's own coordinate and its rate, the absolute acceleration as they are seen,
         and what the isolator remembers if it does, each in its row of `record.samples`, the first
         in row 0.

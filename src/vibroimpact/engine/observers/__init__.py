@@ -30,8 +30,8 @@ one of them; of several masses, of the modules of `assembly` in brackets:
   `response/history_variables.py` (`record`);
 - sweeps: a note of `extremes`, begun by `nothing`, which `measured` of `one_mass.table` writes into
   the result of a hold; `undisturbed` there writes that of a motion that touches no stop, 0 unless
-  it is set. `hold` has its position, `response/hold_rows.py` its name (`measures`, named in
-  `response/assembly_rows.py`);
+  it is set. `steady_response` has its position, `response/hold_rows.py` and
+  `response/one_mass.py` its name (`measures`, named in `response/several_masses.py`);
 - contacts and flights: a column of `phases`, which `measure` writes (`stretches`), and which
   `response/contacts.py` and `response/totals.py` read.
 """

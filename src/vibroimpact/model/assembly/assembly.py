@@ -102,7 +102,7 @@ class Assembly(System):
     """
 
     model_config = ConfigDict(ignored_types=(cached_property,))
-    word = "assembly"
+    table_name = "assembly"
     by_mass = True
     _quiet: ClassVar[Mapping[str, Any]] = {
         "masses": {},

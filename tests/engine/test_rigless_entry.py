@@ -14,9 +14,9 @@ from vibroimpact.engine.rigless_entry import NoRig
 
 LOAD = """\
 from vibroimpact.engine import spectra
-from vibroimpact.engine.rigless_entry import Alone
+from vibroimpact.engine.rigless_entry import NoRig
 spectra.respond.prepare()
-stats = spectra.respond._compiled[Alone].stats
+stats = spectra.respond._compiled[NoRig].stats
 assert stats.cache_hits and not stats.cache_misses
 """
 
