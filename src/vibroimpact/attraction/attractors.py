@@ -15,6 +15,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.response.engine_input import as_state, engine_state
+from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.stability.settled_motion import Settled, later, reach
 from vibroimpact.stability.steady import describe_motion
@@ -103,9 +104,9 @@ def _points(steady_motion: Settled, stage: Stage) -> _Array | None:
         status, rows = prepare(stage.rig).sections(state, _VISITS, stage.max_events)
         if status is not Status.DONE:
             return None
-        points = rows[:, lyapunov.SECTION : lyapunov.SECTION + 5].copy()
-        points[:, 3] *= -1.0
-        return points
+        states = engine_system(stage.oscillator)
+        points: _Array = rows[:, lyapunov.SECTION : lyapunov.SECTION + states.parts]
+        return points * states.signs
     passed, state = [], steady_motion.state
     for _ in range(steady_motion.period):
         passed.append(state[PLACES])

@@ -42,8 +42,8 @@ _COLUMNS = np.array(
 contacts."""
 CONTACTS = (0, 1, -1, 2)
 """`State.contact` by the engine's mode: none, right, left, both."""
-_SIDES = {-1: "left", 1: "right"}
 _SIGNS = {"right": 1, "left": -1}
+_SIDES = {sign: side for side, sign in _SIGNS.items()}
 _IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
 _TOUCHED = {(False, False): 0, (True, False): 1, (False, True): -1, (True, True): 2}

@@ -110,8 +110,8 @@ class OneMass(AnySystem):
     def near(self, state: Any) -> tuple[_Array, float]:
         """Return a point and a mode near a state that need not be possible."""
         right, left = (state.deformation.get(side, 0.0) for side in SIDES)
-        parts = np.array([state.displacement, state.velocity, right, -left, state.isolator])
-        return parts, float(CONTACTS.index(state.contact or 0))
+        parts = np.array([state.displacement, state.velocity, right, left, state.isolator])
+        return parts * self.signs, float(CONTACTS.index(state.contact or 0))
 
     def read(self, start: AnyState | xr.DataArray | xr.Dataset | None) -> AnyState:
         """Return a start as a state; None is the static equilibrium."""
