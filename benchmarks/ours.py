@@ -13,7 +13,7 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.state import ONE_MASS, copy, state_buffer, width
 from vibroimpact.engine.status import Status
@@ -68,8 +68,8 @@ def trajectory(
 ) -> Callable[[], tuple[float, float]]:
     """Return a call of the engine for any rig's vector, from rest."""
     state = np.zeros(ONE_MASS.width)
-    out = np.empty((record.SAMPLE, 0))
-    events = np.empty((_MAX_EVENTS + 1, record.EVENT))
+    out = np.empty((record_layout.SAMPLE, 0))
+    events = np.empty((_MAX_EVENTS + 1, record_layout.EVENT))
 
     def call() -> tuple[float, float]:
         state[:] = 0.0
@@ -96,8 +96,8 @@ def trajectory(
 def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     """Count what happens in so many forcing periods from rest."""
     state = np.zeros(ONE_MASS.width)
-    buffer = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
-    out = np.empty((record.SAMPLE, 0))
+    buffer = np.empty(((periods + 1) * _MAX_EVENTS, record_layout.EVENT))
+    out = np.empty((record_layout.SAMPLE, 0))
     shaking = (problem.amplitude, frequency(problem), PHASE)
     _, count, _ = batch.trajectory(
         rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, buffer

@@ -1,52 +1,82 @@
-"""Both flows answer every question, with a kernel of their own."""
+"""Flows of one mass answer the same questions, each with a kernel of its own."""
 
 from __future__ import annotations
 
 import inspect
+from types import ModuleType
 
 import pytest
 
-from vibroimpact.engine import dispatch, flow_dispatch
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import by_laws
+from vibroimpact.engine.forcing import dispatch as forcing
+from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.one_mass import forces, motions
 from vibroimpact.engine.parameters import free_rig, rig_vector
 from vibroimpact.law_numbers import IsolatorNumbers
 
-NAMES = [
-    name
-    for name, value in vars(dispatch).items()
-    if inspect.isfunction(value) and value.__qualname__.startswith("_by_flow.")
-]
+
+@kernel
+def linear(plan, t):
+    return 1.0
 
 
-def test_the_questions() -> None:
-    assert set(dispatch._MODULES) == set(range(3)), flow_dispatch  # which says who answers
-    assert {"build", "carry", "sample_stretch", "acceleration"} <= set(NAMES)
+@kernel
+def curved(plan, t):
+    return 2.0
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_both_answer_alike(name: str) -> None:
-    linear, taylor = (dispatch._found(laws, name) for laws in (par.LINEAR, par.BENT))
-    assert ".linear." in linear.__module__
-    assert ".taylor." in taylor.__module__
-    # What yields has tables of its own, and is asked as what is curved for all else.
-    yielding = dispatch._found(par.YIELDING, name)
-    assert yielding is taylor or (".yielding." in yielding.__module__ and name == "build")
-    assert len(inspect.signature(linear).parameters) == len(inspect.signature(taylor).parameters)
+@kernel
+def yielding(plan, t):
+    return 3.0
 
 
-def test_what_is_not_there_is_said() -> None:
-    with pytest.raises(AttributeError, match="the flow of curved laws has no nonsense"):
-        dispatch._found(par.BENT, "nonsense")
-    with pytest.raises(AttributeError, match="the flow of linear laws has no nonsense"):
-        dispatch._found(par.LINEAR, "nonsense")
+@kernel
+def longer(plan, t, x):
+    return 4.0
+
+
+@by_laws(linear, curved, yielding)
+def asked(plan, t):
+    """A question."""
+
+
+@by_laws(linear, curved)
+def asked_of_two(plan, t):
+    """A question that Taylor series answer for what yields, too."""
+
+
+RIGS = [IsolatorNumbers(), IsolatorNumbers(cubic=1.0), IsolatorNumbers(friction=0.1)]
+
+
+@pytest.mark.parametrize(("law", "answers"), list(zip(RIGS, [(1, 1), (2, 2), (3, 2)], strict=True)))
+def test_a_rig_is_answered_by_the_kernel_of_its_laws(law, answers) -> None:
+    plan = rig_vector(1.0, 4.0, 0.1, None, None, law=law)
+    assert (asked(plan, 0.0), asked_of_two(plan, 0.0)) == answers
+
+
+def test_a_kernel_with_other_arguments_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"asked_again: not the arguments plan, t$"):
+
+        @by_laws(linear, longer)
+        def asked_again(plan, t):
+            """A question."""
+
+
+def _is_question(one: object) -> bool:
+    return inspect.isfunction(one) and one.__qualname__.endswith("<locals>.plain")
+
+
+@pytest.mark.parametrize("module", [forces, motions, forcing])
+def test_each_question_says_what_is_asked(module: ModuleType) -> None:
+    questions = [one for one in vars(module).values() if _is_question(one)]
+    assert len(questions) >= 10
+    assert all(one.__doc__ for one in questions)
 
 
 def test_without_a_compiler_the_rig_decides() -> None:
-    curved = rig_vector(1.0, 4.0, 0.1, None, None, law=IsolatorNumbers(hysteretic=5.0))
-    assert curved[par.CURVED] == 1.0
-    assert dispatch.stiff_rate(curved) == 3.0
-    linear = free_rig()
-    assert linear[par.CURVED] == 0.0
-    assert dispatch._found(par.LINEAR, "stiff_rate").__module__.startswith(
-        "vibroimpact.engine.linear"
-    )
+    curved_rig = rig_vector(1.0, 4.0, 0.1, None, None, law=IsolatorNumbers(hysteretic=5.0))
+    assert curved_rig[par.CURVED] == 1.0
+    assert forces.stiff_rate(curved_rig) == 3.0
+    assert free_rig()[par.CURVED] == 0.0
+    assert forces.stiff_rate(free_rig()) == 1.0

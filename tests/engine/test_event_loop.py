@@ -16,7 +16,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.record import DETACHMENT
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import EVENT, ONE_MASS, STEP, T, copy, load, state_buffer, width
 from vibroimpact.response.engine_system import engine_rig
 
@@ -66,12 +66,12 @@ def test_every_event_is_seen_once_and_has_no_influence(stop: vi.Bumper | vi.Rigi
     events = look(rig, np.zeros(ONE_MASS.width), AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST, out)
     contacts, detachments, time, gaps = out[:4]
 
-    state, written = np.zeros(ONE_MASS.width), np.empty(((CYCLES + 1) * MOST, record.EVENT))
+    state, written = np.zeros(ONE_MASS.width), np.empty(((CYCLES + 1) * MOST, record_layout.EVENT))
     _, count, outcome = batch.trajectory(
         rig, AMPLITUDE, FREQUENCY, PHASE, state, 0.0, float(CYCLES), 0, MOST, np.empty((0, 6)),
         written,
     )  # fmt: skip
-    ends = written[:count, record.E_KIND] == DETACHMENT
+    ends = written[:count, record_layout.E_KIND] == DETACHMENT
     assert outcome == 0
     assert events == count > CYCLES
     assert (contacts, detachments) == (count - ends.sum(), ends.sum())

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import saltation
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY
 from vibroimpact.engine.stops.rebound import Rebound
 
 SMALL = mpmath.mpf(10) ** -12

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import native, steady_response
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.engine_layout import WASM
@@ -196,9 +196,9 @@ def test_sweeps_and_motions_are_those_of_python(run):
         section = data["section"].sel(direction=state.direction).isel(frequency=at)
         motion = compute_history(Rig(state.oscillator, shaken), 3, section, 40)
         for name, row in (
-            ("displacement", record.DISPLACEMENT),
-            ("velocity", record.VELOCITY),
-            ("acceleration", record.ACCELERATION),
+            ("displacement", record_layout.DISPLACEMENT),
+            ("velocity", record_layout.VELOCITY),
+            ("acceleration", record_layout.ACCELERATION),
         ):
             one, other = motion[name].values, numbers(found["motion"][row : row + 1])[0]
             assert np.abs(one - other).max() <= NEAR * np.abs(one).max()

@@ -13,7 +13,7 @@ from collections import Counter
 import numpy as np
 
 from vibroimpact.engine import batch
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
@@ -50,8 +50,8 @@ def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     """Run one rig from rest; say what is wrong with its motion."""
     right, left = case["right"], case["left"]
     state = np.zeros(ONE_MASS.width)
-    out = np.full((record.SAMPLE, CYCLES * SAMPLES + 1), np.nan)
-    events = np.empty((MAX_EVENTS * (CYCLES + 1) + 1, record.EVENT))
+    out = np.full((record_layout.SAMPLE, CYCLES * SAMPLES + 1), np.nan)
+    events = np.empty((MAX_EVENTS * (CYCLES + 1) + 1, record_layout.EVENT))
     _, _, outcome = batch.trajectory(
         rig_vector(1.0, 1.0, case["damping"], right, left),
         1.0,
@@ -68,9 +68,12 @@ def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     if outcome != Status.DONE:
         return Status(outcome), []
     found = []
-    if not (np.isfinite(out[: record.CLEARANCE]).all() and np.isfinite(state).all()):
+    if not (np.isfinite(out[: record_layout.CLEARANCE]).all() and np.isfinite(state).all()):
         found.append("not finite")
-    u, (depth_r, depth_l) = out[record.DISPLACEMENT], out[record.DEFORMATION :][: record.STOPS]
+    u, (depth_r, depth_l) = (
+        out[record_layout.DISPLACEMENT],
+        out[record_layout.DEFORMATION :][: record_layout.STOPS],
+    )
     scale = np.abs(u).max()
     for bumper, inside in ((right, u - depth_r), (left, -depth_l - u)):
         if bumper and (inside - bumper[2]).max() > 1e-13 * max(scale, bumper[2]):

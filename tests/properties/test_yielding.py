@@ -12,7 +12,7 @@ import vibroimpact as vi
 from engine.yielding.rigs import followed, random_rig, started, vectors
 from samples import sample
 from vibroimpact.engine.flow_dispatch import flow_of
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 
 SMALL = 1e-9
@@ -39,14 +39,14 @@ def compared(count: int, seed: int, several: bool) -> tuple[int, list[str]]:
             wrong.append(about.format(f"outcomes {outcome} and {expected}"))
         if outcome or expected:
             continue
-        u, v = theirs[record.DISPLACEMENT], theirs[record.VELOCITY]
+        u, v = theirs[record_layout.DISPLACEMENT], theirs[record_layout.VELOCITY]
         size = max(float(np.abs(u).max()), 1e-2)  # of motions that are all rest, too
         speed = max(float(np.abs(v).max()), size * math.tau * shaken.frequency)
         scale = np.array([[size], [speed], [size]])
 
         def rows(samples: np.ndarray, state: np.ndarray, scale: np.ndarray = scale) -> np.ndarray:
             memory = np.full(samples.shape[1], state[ONE_MASS.memory()])
-            columns = samples[record.DISPLACEMENT], samples[record.VELOCITY], memory
+            columns = samples[record_layout.DISPLACEMENT], samples[record_layout.VELOCITY], memory
             return np.array(columns) / scale
 
         error = float(np.abs(rows(ours, end) - rows(theirs, last)).max())

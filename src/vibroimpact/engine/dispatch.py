@@ -1,100 +1,84 @@
-"""How a kernel finds what depends on the flow: by the type of its plan.
+"""One function in place of several kernels: the type of a plan chooses when a caller is compiled.
 
-Two flows answer the same questions: tables of closed-form motion where all laws are linear, Taylor
-series elsewhere. A third, for isolators that yield or slide, has tables of its own and leaves all
-that is not said there to the Taylor flow. Each is a folder whose modules have these kernels:
-
-    build(plan, amplitude, omega)           make the plan for one forcing
-    too_much_work(plan, period)             whether one cycle takes too long
-    undisturbed(plan, motion, clock, dying)  free flight that touches nothing any more, if known
-    stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
-
-    begin(plan, motion, length), has_piece(plan, cursor), next_piece(plan, cursor)
-    write_cursor(plan, cursor, buffer), read_cursor(plan, buffer)  a cursor in memory
-    bound_window(plan, cursor, before, seen, buffer)  bounds over a window of pieces
-    enclosed(plan, cursor, buffer)          between which bounds a piece lies, then
-    expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
-    sample_stretch(plan, cursor, before, …)  the motion at instants of a stretch
-    coordinate(plan, motion)                the mode's own
-    displacement(plan, mode, x), acceleration(plan, motion)
-
-    acceleration_of(plan, motion)           ü from all forces
-    isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
-    springs(plan, motion)                   its tangent stiffness, per unit mass
-    stop_deformation(plan, motion, stop)    how far a stop is deformed (m)
-    stop_push(plan, motion, stop)           what a pressed stop pushes with
-    stop_power(…), isolator_power(…)        what they lose, per unit mass
-    unreturned_energy(plan, before, after, stop)  what a stop loses that has ceased to push
-    rest_level(plan, motion, stop)          what presses a resting mass on its rigid stop
-
-    carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
+The flows of one mass answer the same questions: tables of closed-form motion where all laws are
+linear, Taylor series elsewhere, and tables again for isolators that yield or slide. A question is
+declared once, with its arguments, below the kernels that answer it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from types import ModuleType
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
 
 from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.jit import CHOSEN
 from vibroimpact.engine.parameters import LINEAR, laws
 
-_MODULES: dict[int, tuple[ModuleType, ...]] = {}
+F = TypeVar("F", bound=Callable[..., Any])
 
 
-def answer(laws: int, *modules: ModuleType) -> None:
-    """Say which modules answer for a flow, the first of them that can."""
-    _MODULES[laws] = modules
+def by_laws(
+    linear: Callable[..., Any],
+    curved: Callable[..., Any],
+    yielding: Callable[..., Any] | None = None,
+) -> Callable[[F], F]:
+    """Declare a function that calls the kernel of a plan's laws.
 
+    Parameters
+    ----------
+    linear, curved, yielding
+        The kernels: where all laws are linear, of Taylor series, and of isolators that yield or
+        slide (default: that of Taylor series).
+    """
+    kernels = linear, curved, yielding or curved
 
-def _found(laws: int, name: str) -> Any:
-    for module in _MODULES[laws]:
-        one = vars(module).get(name)
-        if one is not None and one.__module__ == module.__name__:  # not what it imports
-            return one
-    raise AttributeError(f"the flow of {('linear', 'curved', 'yielding')[laws]} laws has no {name}")
-
-
-def _by_flow(name: str) -> Callable[..., Any]:
     def plain(plan: Any, *args: Any) -> Any:
-        return _found(laws(plan), name)(plan, *args)
+        return kernels[laws(plan)](plan, *args)
 
-    plain.__name__ = name
+    def of_type(plan: Any) -> Any:
+        return kernels[getattr(plan, "laws", LINEAR)]
 
-    @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
-    def _chosen(plan: Any, *args: Any) -> Any:
-        return _found(getattr(plan, "laws", LINEAR), name).py_func
-
-    return plain
+    return replacing(kernels, plain, of_type)
 
 
-build = _by_flow("build")
-too_much_work = _by_flow("too_much_work")
-undisturbed = _by_flow("undisturbed")
-stiff_rate = _by_flow("stiff_rate")
-begin = _by_flow("begin")
-has_piece = _by_flow("has_piece")
-next_piece = _by_flow("next_piece")
-write_cursor = _by_flow("write_cursor")
-read_cursor = _by_flow("read_cursor")
-bound_window = _by_flow("bound_window")
-enclosed = _by_flow("enclosed")
-expanded = _by_flow("expanded")
-expanded_force = _by_flow("expanded_force")
-accelerated = _by_flow("accelerated")
-moment = _by_flow("moment")
-sample_stretch = _by_flow("sample_stretch")
-displacement = _by_flow("displacement")
-acceleration = _by_flow("acceleration")
-acceleration_of = _by_flow("acceleration_of")
-isolator_force = _by_flow("isolator_force")
-springs = _by_flow("springs")
-stop_deformation = _by_flow("stop_deformation")
-stop_push = _by_flow("stop_push")
-stop_power = _by_flow("stop_power")
-isolator_power = _by_flow("isolator_power")
-unreturned_energy = _by_flow("unreturned_energy")
-rest_level = _by_flow("rest_level")
-coordinate = _by_flow("coordinate")
-carry = _by_flow("carry")
+def replacing(
+    kernels: Iterable[Callable[..., Any]],
+    plain: Callable[..., Any],
+    of_type: Callable[[Any], Any],
+) -> Callable[[F], F]:
+    """Declare a function in place of kernels.
+
+    Parameters
+    ----------
+    kernels
+        All that it may call. Their arguments are those of the declaration, by name.
+    plain
+        What it does without a compiler.
+    of_type
+        The kernel that it is to numba, by the type of the plan.
+
+    Raises
+    ------
+    TypeError
+        If the arguments of a kernel are others.
+    """
+
+    def declare(described: F) -> F:
+        name, wanted = described.__name__, _arguments(described)
+        for one in kernels:
+            if _arguments(one) != wanted:
+                raise TypeError(f"{one.__module__}.{name}: not the arguments {', '.join(wanted)}")
+        plain.__doc__, plain.__name__ = described.__doc__, name
+
+        @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
+        def _chosen(plan: Any, *args: Any) -> Any:
+            return of_type(plan).py_func
+
+        return plain  # type: ignore[return-value]
+
+    return declare
+
+
+def _arguments(function: Any) -> tuple[str, ...]:
+    code = getattr(function, "py_func", function).__code__
+    return code.co_varnames[: code.co_argcount]  # type: ignore[no-any-return]

@@ -12,11 +12,12 @@ is carried on in place.
 
 A plan begins with the rig's vector, of which these may vary: so many `numbers`.
 
-To add a flow of one mass, write the kernels of `dispatch` in a folder, and enter them in
-`flow_dispatch`: a type of plan in `_ADVANCE`, its laws in `_LAWS`, its modules by `answer`, its
-rigs in `_flow`; the functions here follow (`one_mass`). For any other flow, write a module of these
-functions with the arguments that are declared here, and enter it in `FLOWS` of `flow_tables`, with
-its type in `SEVERAL_MASSES` and `_flow` of `flow_dispatch`, and its choice in `plain` here.
+To add a flow of one mass, write the kernels that `one_mass.motions` and `one_mass.forces` declare
+in a folder, name them there (`dispatch.by_laws`), and add a class derived from `OneMassFlow` to
+`flow_dispatch`, with its rigs in `_flow`; the functions here follow (`one_mass`). For any other
+flow, write a module of these functions with the arguments that are declared here, and enter it in
+`FLOWS` of `flow_tables`, with its class in `SEVERAL_MASSES` and `_flow` of `flow_dispatch`, and its
+choice in `plain` here.
 """
 
 from __future__ import annotations

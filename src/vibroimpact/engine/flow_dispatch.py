@@ -1,17 +1,9 @@
-"""Which flow carries a rig: found by its laws in Python, by the type of its plan in kernels.
-
-A flow of one mass is a kernel
-
-    advance(plan, motion, limit) -> event, t, arrival, motion
-
-that goes on to the next event, and a rule which rigs it can carry. Its functions for the rest of
-the engine are those of `one_mass.table`.
-"""
+"""Which flow carries a rig: a class a flow, found by the rig's laws, stops and forcing."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -20,154 +12,125 @@ from vibroimpact.engine.assembly import layout as assembly
 from vibroimpact.engine.assembly.curved import emitted
 from vibroimpact.engine.assembly.plan import write_plan
 from vibroimpact.engine.compiler import cgutils, intrinsic, models, overload, register_model, types
-from vibroimpact.engine.dispatch import answer
 from vibroimpact.engine.flow import OneMass
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
-from vibroimpact.engine.linear import advance as linear_advance
-from vibroimpact.engine.linear import carry as linear_carry
-from vibroimpact.engine.linear import contact_free, forces, pieces, tables, window_bounds
 from vibroimpact.engine.linear.advance import advance_apart
 from vibroimpact.engine.linear.any_stops import advance_any
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.series import kernels
-from vibroimpact.engine.taylor import advance as taylor_advance
-from vibroimpact.engine.taylor import carry as taylor_carry
-from vibroimpact.engine.taylor import laws as taylor_laws
-from vibroimpact.engine.taylor import mode_forces, power
-from vibroimpact.engine.taylor import pieces as taylor_pieces
-from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
-from vibroimpact.engine.yielding import plan as yielding_plan
 from vibroimpact.engine.yielding.advance import advance_yielding
 from vibroimpact.engine.yielding.layout import PLAN as YIELDING_PLAN
 
 
-class Apart(NamedTuple):
+class Storage(NamedTuple):
+    """Memory for the plan of a rig, whose flow its class is."""
+
+    memory: Vector
+
+
+class OneMassFlow(Storage):
+    """A flow of one mass: what a class derived from it declares."""
+
+    advance: ClassVar[Callable[..., Any]]
+    """The kernel (plan, motion, limit) that goes on to the next event, or for the time `limit`."""
+    laws: ClassVar[int] = par.LINEAR
+    """The kernels of `by_laws` that answer for it."""
+    forcing: ClassVar[float | None] = par.HARMONIC
+    """The one forcing that it is compiled for. Tables of closed-form motion spend their time in its
+    functions; a Taylor step does not notice that they are looked up (None)."""
+
+
+class Apart(OneMassFlow):
     """Bumpers that cannot be touched at once, shaken by one sine."""
 
-    memory: Vector
+    advance = advance_apart
 
 
-class AnyStops(NamedTuple):
+class AnyStops(OneMassFlow):
     """Rigid stops, and bumpers that overlap, shaken by one sine."""
 
-    memory: Vector
+    advance = advance_any
 
 
-class Several(NamedTuple):
+class Several(OneMassFlow):
     """Any linear stops, shaken by several harmonics."""
 
-    memory: Vector
+    advance = advance_any
+    forcing = par.SEVERAL
 
 
-class Recorded(NamedTuple):
+class Recorded(OneMassFlow):
     """Any linear stops, shaken by a record."""
 
-    memory: Vector
+    advance = advance_any
+    forcing = par.RAMP
 
 
-class Curved(NamedTuple):
+class Curved(OneMassFlow):
     """Any laws, under any shaking."""
 
-    memory: Vector
+    advance = advance_taylor
+    laws = par.BENT
+    forcing = None
 
 
-class Yielding(NamedTuple):
+class Yielding(OneMassFlow):
     """An isolator that yields or slides between linear stops, shaken by one sine."""
 
-    memory: Vector
+    advance = advance_yielding
+    laws = par.YIELDING
 
 
-class YieldingSeveral(NamedTuple):
+class YieldingSeveral(Yielding):
     """The same, shaken by several harmonics."""
 
-    memory: Vector
+    forcing = par.SEVERAL
 
 
-class YieldingRecorded(NamedTuple):
+class YieldingRecorded(Yielding):
     """The same, shaken by a record."""
 
-    memory: Vector
+    forcing = par.RAMP
 
 
-class Masses(NamedTuple):
+class Masses(Storage):
     """Several masses with linear links between linear stops, under any shaking."""
 
-    memory: Vector
 
-
-class CurvedMasses(NamedTuple):
+class CurvedMasses(Storage):
     """Several masses with any links between any stops, under any shaking."""
-
-    memory: Vector
 
 
 SEVERAL_MASSES = (Masses, CurvedMasses)
-
-
-ADVANCE: dict[type, Callable[..., Any]] = {
-    Apart: advance_apart,
-    AnyStops: advance_any,
-    Several: advance_any,
-    Recorded: advance_any,
-    Curved: advance_taylor,
-    Yielding: advance_yielding,
-    YieldingSeveral: advance_yielding,
-    YieldingRecorded: advance_yielding,
-}
-_YIELDING: dict[float, type] = {
-    par.HARMONIC: Yielding,
-    par.SEVERAL: YieldingSeveral,
-    par.RAMP: YieldingRecorded,
-}
-FLOWS = (*ADVANCE, *SEVERAL_MASSES)
+FLOWS: tuple[type[Storage], ...] = (
+    Apart,
+    AnyStops,
+    Several,
+    Recorded,
+    Curved,
+    Yielding,
+    YieldingSeveral,
+    YieldingRecorded,
+    *SEVERAL_MASSES,
+)
 """Every flow."""
-_LAWS = {Curved: par.BENT, **dict.fromkeys(_YIELDING.values(), par.YIELDING)}
-_FORCING = {
-    Apart: par.HARMONIC,
-    AnyStops: par.HARMONIC,
-    Several: par.SEVERAL,
-    Recorded: par.RAMP,
-    **{flow: forcing for forcing, flow in _YIELDING.items()},
-}
-"""The one forcing that a flow is compiled for. Tables of closed-form motion spend their time in its
-functions; a Taylor step does not notice that they are looked up."""
-
-_TAYLOR = (
-    taylor_plan,
-    mode_forces,
-    power,
-    taylor_laws,
-    taylor_pieces,
-    taylor_advance,
-    taylor_carry,
-)
-answer(
-    par.LINEAR,
-    tables,
-    contact_free,
-    linear_advance,
-    forces,
-    pieces,
-    window_bounds,
-    linear_carry,
-)
-answer(par.BENT, *_TAYLOR)
-answer(par.YIELDING, yielding_plan, *_TAYLOR)
 
 
-def _flow(rig: Vector) -> type:
+def _flow(rig: Vector) -> type[Storage]:
     if rig[par.FORCING] == par.MASSES:
         return CurvedMasses if rig[assembly.CURVED] else Masses
-    laws = par.laws(rig)
-    if laws != par.LINEAR:
-        return Curved if laws == par.BENT else _YIELDING[rig[par.FORCING]]
-    if rig[par.FORCING] == par.SEVERAL:
-        return Several
-    if rig[par.FORCING] == par.RAMP:
-        return Recorded
+    laws, forcing = par.laws(rig), rig[par.FORCING]
+    if laws == par.BENT:
+        return Curved
+    if forcing == par.SEVERAL:
+        return YieldingSeveral if laws == par.YIELDING else Several
+    if forcing == par.RAMP:
+        return YieldingRecorded if laws == par.YIELDING else Recorded
+    if laws == par.YIELDING:
+        return Yielding
     right, left = par.stop_at(0), par.stop_at(1)
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
@@ -184,8 +147,8 @@ def _aligned_memory(size: int) -> Vector:
     return memory[start : start + size]
 
 
-def flow_of(rig: Vector) -> Any:
-    """Room for the plan of a rig, of the type that chooses its flow."""
+def flow_of(rig: Vector) -> Storage:
+    """Memory for the plan of a rig, of the class of its flow."""
     flow = _flow(rig)
     if flow in SEVERAL_MASSES:
         memory = _aligned_memory(int(rig[assembly.LENGTH_OF_PLAN]))
@@ -193,12 +156,12 @@ def flow_of(rig: Vector) -> Any:
         emitted.prepare(memory, rig)
         return flow(memory)
     if rig[par.FORCING] != par.SEVERAL:
-        memory = _aligned_memory(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
+        memory = _aligned_memory(YIELDING_PLAN if issubclass(flow, Yielding) else PLAN)
     else:
         weights = rig[par.WEIGHTS :]
         memory = _aligned_memory(several.plan_length(len(weights) // 2))
         memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
-    if flow in _LAWS:
+    if issubclass(flow, Curved | Yielding):
         kernels.prepare(memory, rig)
     return flow(memory)
 
@@ -222,10 +185,10 @@ def carries(rig: Vector, other: Vector) -> bool:
 class PlanType(OneMass):
     """The memory of a plan of one mass, told apart by its flow."""
 
-    def __init__(self, flow: type) -> None:
+    def __init__(self, flow: type[OneMassFlow]) -> None:
         self.flow = flow
-        self.forcing = _FORCING.get(flow)
-        self.laws = _LAWS.get(flow, par.LINEAR)
+        self.forcing = flow.forcing
+        self.laws = flow.laws
         super().__init__(types.float64)  # type: ignore[no-untyped-call]
         self.name = f"Plan({flow.__name__})"
 

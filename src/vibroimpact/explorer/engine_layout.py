@@ -11,7 +11,7 @@ from vibroimpact.engine import batch, flow, flow_tables, lyapunov, state, steady
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import AnyStops, Apart
 from vibroimpact.engine.linear.layout import PLAN
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
 
@@ -45,10 +45,10 @@ def layout_of_engine() -> dict[str, Any]:
         "results": steady_response.RESULTS,
         "parts": ONE_MASS.total,
         "record": {
-            "sample": record.SAMPLE,
-            "event": record.EVENT,
+            "sample": record_layout.SAMPLE,
+            "event": record_layout.EVENT,
             **_positions(
-                record,
+                record_layout,
                 "DISPLACEMENT VELOCITY ACCELERATION DEFORMATION TOUCHED "
                 "E_CYCLE E_TIME E_KIND E_STOP E_V DETACHMENT",
             ),

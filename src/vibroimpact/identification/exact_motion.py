@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, record_forcing
-from vibroimpact.engine.one_mass import record as observed
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.status import DONE
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
@@ -25,9 +25,9 @@ _FINER = 2
 """Samples for each of a measurement, at least: a jump is spread over one of them."""
 _MAX_EVENTS = 2000
 _COLUMNS = {
-    "displacement": observed.DISPLACEMENT,
-    "velocity": observed.VELOCITY,
-    "acceleration": observed.ACCELERATION,
+    "displacement": record_layout.DISPLACEMENT,
+    "velocity": record_layout.VELOCITY,
+    "acceleration": record_layout.ACCELERATION,
 }
 
 
@@ -63,8 +63,8 @@ def under_sine(rig: Rig, start: State | Array, time: Array) -> Moved | None:
     at = (time - time[0]) * shaken.frequency
     length = max(float(at[-1]), 1.0 / _SAMPLES)
     samples = max(_SAMPLES, math.ceil(_FINER * (len(at) - 1) / length))
-    out = np.empty((observed.SAMPLE, math.ceil(length * samples - 1e-9) + 1))
-    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
+    out = np.empty((record_layout.SAMPLE, math.ceil(length * samples - 1e-9) + 1))
+    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, record_layout.EVENT))
     numbers, done, outcome = engine_rig(rig), 0, int(DONE)
     while done < length and outcome == DONE:
         done, _, outcome = batch.trajectory(
@@ -88,8 +88,8 @@ def under_record(rig: Rig, start: State, time: Array) -> Moved | None:
     oscillator, record = rig.oscillator, rig.record
     vector = engine_state(oscillator, start)
     lines = straight(record, 0.0)
-    out = np.empty((observed.SAMPLE, len(lines) + 1))
-    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
+    out = np.empty((record_layout.SAMPLE, len(lines) + 1))
+    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, record_layout.EVENT))
     steepest = float(np.abs(lines[:, record_forcing.SLOPE]).max())
     numbers, done, outcome = engine_rig(rig), 0, int(DONE)
     while done < len(lines) and outcome == DONE:
@@ -109,10 +109,11 @@ def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
     keep = np.concatenate([[True], step > 1e-12 * max(grid[-1], 1e-300)])
     grid, out, base = grid[keep], out[:, keep], base[keep]
     i = np.clip(np.searchsorted(grid, time, side="right") - 1, 0, max(len(grid) - 2, 0))
-    reach = (float(out[observed.DISPLACEMENT].max()), -float(out[observed.DISPLACEMENT].min()))
+    u = out[record_layout.DISPLACEMENT]
+    reach = float(u.max()), -float(u.min())
     if len(grid) < 2:
-        u, v = float(out[0, 0]), float(out[1, 0])
-        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, (u, v), reach)
+        start = float(out[0, 0]), float(out[1, 0])
+        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, start, reach)
     h = grid[i + 1] - grid[i]
     s = (time - grid[i]) / h
     rows = {name: out[column] for name, column in _COLUMNS.items()}

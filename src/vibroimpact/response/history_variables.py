@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.stops import by_stop, stop_names
 from vibroimpact.engine.assembly import record as several
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.model import Assembly, Oscillator, Record, Repeated
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.unknown_keys import listed as words
@@ -52,17 +52,17 @@ class Written(NamedTuple):
 def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
     """The samples; what the isolator remembers, if it does."""
     rows = {
-        "displacement": record.DISPLACEMENT,
-        "velocity": record.VELOCITY,
-        "acceleration": record.ACCELERATION,
-        **({"isolator_memory": record.MEMORY} if oscillator.isolator.remembers else {}),
+        "displacement": record_layout.DISPLACEMENT,
+        "velocity": record_layout.VELOCITY,
+        "acceleration": record_layout.ACCELERATION,
+        **({"isolator_memory": record_layout.MEMORY} if oscillator.isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    mode = out[record.TOUCHED].astype(np.int8)[:, np.newaxis]
+    mode = out[record_layout.TOUCHED].astype(np.int8)[:, np.newaxis]
     by_side = {
-        "deformation": out[record.DEFORMATION : record.DEFORMATION + record.STOPS].T,
-        "clearance": out[record.CLEARANCE : record.CLEARANCE + record.STOPS].T,
-        "touching": mode >> np.arange(record.STOPS, dtype=np.int8) & 1 > 0,
+        "deformation": out[record_layout.DEFORMATION :][: record_layout.STOPS].T,
+        "clearance": out[record_layout.CLEARANCE :][: record_layout.STOPS].T,
+        "touching": mode >> np.arange(record_layout.STOPS, dtype=np.int8) & 1 > 0,
     }
     return samples | {
         name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
@@ -105,28 +105,29 @@ def listed(parts: list[_Array], period: float, oscillator: Oscillator) -> dict[s
     Columns are joined one by one, so that the parts are not kept a third time.
     """
     integers = {
-        "event_cycle": record.E_CYCLE,
-        "event_contact": record.E_KIND,
+        "event_cycle": record_layout.E_CYCLE,
+        "event_contact": record_layout.E_KIND,
     }
     columns = {
-        "event_cycle_time": record.E_TIME,
-        "event_displacement": record.E_U,
-        "event_velocity": record.E_V,
-        "event_acceleration_before": record.E_BEFORE,
-        "event_acceleration_after": record.E_BEHIND,
-        **({"event_isolator_memory": record.E_MEMORY} if oscillator.isolator.remembers else {}),
+        "event_cycle_time": record_layout.E_TIME,
+        "event_displacement": record_layout.E_U,
+        "event_velocity": record_layout.E_V,
+        "event_acceleration_before": record_layout.E_BEFORE,
+        "event_acceleration_after": record_layout.E_BEHIND,
     }
+    if oscillator.isolator.remembers:
+        columns["event_isolator_memory"] = record_layout.E_MEMORY
 
     def column(at: int) -> _Array:
         return np.concatenate([part[:, at] for part in parts])
 
-    time = column(record.E_CYCLE) * period + column(record.E_TIME)
+    time = column(record_layout.E_CYCLE) * period + column(record_layout.E_TIME)
     deformation = np.column_stack(
-        [column(record.E_DEFORMATION + stop) + 0.0 for stop in range(record.STOPS)]
+        [column(record_layout.E_DEFORMATION + stop) + 0.0 for stop in range(record_layout.STOPS)]
     )
     return {
         "event_time": ("event", time),
-        "event_stop": ("event", stop_names(column(record.E_STOP))),
+        "event_stop": ("event", stop_names(column(record_layout.E_STOP))),
         "event_deformation": (("event", "stop"), by_stop(oscillator, deformation)),
         **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0

@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.datasets.stops import by_stop
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.one_mass.table import mirror_image
 from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
@@ -144,7 +144,7 @@ class OneMass(AnySystem):
     @property
     def record_widths(self) -> tuple[int, int]:
         """Numbers of values of a sample and of an event."""
-        return record.SAMPLE, record.EVENT
+        return record_layout.SAMPLE, record_layout.EVENT
 
     def histories(self, written: Written) -> dict[str, Any]:
         """Return samples and events as variables of a dataset."""
@@ -186,7 +186,7 @@ class OneMass(AnySystem):
 
     def ended(self, status: Status, out: _Array, vector: _Array) -> Status:
         """Return how a motion with these samples and this initial state ended."""
-        return ended(self.system, status, out[record.DISPLACEMENT], vector[FIRST])
+        return ended(self.system, status, out[record_layout.DISPLACEMENT], vector[FIRST])
 
     def of_masses(self, dims: Dims, values: NDArray[Any]) -> tuple[Dims, NDArray[Any]]:
         """Return the values of the only mass, without the dim ``mass``."""

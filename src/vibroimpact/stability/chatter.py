@@ -1,6 +1,6 @@
 """Motions that come to rest on a rigid stop: their chatter has infinitely many impacts.
 
-Some are followed one by one (`engine.stops.rigid`). Where another one is followed before the
+Some are followed one by one (`engine.stops.rigid_events`). Where another one is followed before the
 chatter is completed, the count of contacts changes though the motion does not: no grazing.
 """
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, section_map
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     MAX_EVENTS,
@@ -121,7 +121,7 @@ def _chatters(orbit: Orbit) -> list[_Array] | None:
     section = orbit.section
     system = section.family.system(orbit.value)
     phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])
-    events = np.empty(((section.period + 1) * MAX_EVENTS + 2, record.EVENT))
+    events = np.empty(((section.period + 1) * MAX_EVENTS + 2, record_layout.EVENT))
     _, count, outcome = batch.trajectory(
         system,
         float(system[section_map.AMPLITUDE]),
@@ -132,16 +132,16 @@ def _chatters(orbit: Orbit) -> list[_Array] | None:
         float(section.period),
         0,
         MAX_EVENTS,
-        np.empty((record.SAMPLE, 0)),
+        np.empty((record_layout.SAMPLE, 0)),
         events,
     )
     if outcome != Status.DONE:
         return None
     seen = events[:count]
-    time = seen[:, record.E_CYCLE] + seen[:, record.E_TIME] * frequency
-    rows = np.column_stack([time, seen[:, record.E_KIND], seen[:, record.E_STOP]])
+    time = seen[:, record_layout.E_CYCLE] + seen[:, record_layout.E_TIME] * frequency
+    rows = np.column_stack([time, seen[:, record_layout.E_KIND], seen[:, record_layout.E_STOP]])
     # A release may fall on the section itself, and be followed by an impact without speed.
-    met = np.abs(seen[:, record.E_V]) > _SPEED * section.scale[1]
+    met = np.abs(seen[:, record_layout.E_V]) > _SPEED * section.scale[1]
     rests_there = rows[:, 1] == CONTACT_BEGINS
     rows = rows[(rows[:, 1] != DETACHMENT) & (met | rests_there)]
     ends = np.flatnonzero(rows[:, 1] == CONTACT_BEGINS) + 1

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers.record import DETACHMENT
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.outputs import NamedOutput, computed
@@ -128,7 +128,7 @@ def _impacts(motion: Settled, cycles: int, max_events: int) -> tuple[_Array, Sta
     state, number, parts = motion.state.copy(), 0, []
     outcome = 0
     while number < cycles and not outcome:
-        events = np.empty((max_events + _ROOM, record.EVENT))
+        events = np.empty((max_events + _ROOM, record_layout.EVENT))
         number, count, outcome = batch.trajectory(
             motion.engine.vector,
             shaken.amplitude,
@@ -139,13 +139,13 @@ def _impacts(motion: Settled, cycles: int, max_events: int) -> tuple[_Array, Sta
             float(cycles),
             0,
             max_events,
-            np.empty((record.SAMPLE, 0)),
+            np.empty((record_layout.SAMPLE, 0)),
             events,
         )
-        parts.append(events[:count][events[:count, record.E_KIND] != DETACHMENT])
+        parts.append(events[:count][events[:count, record_layout.E_KIND] != DETACHMENT])
     rows = np.concatenate(parts)
-    turned = shaken.phase + shaken.angular_frequency * rows[:, record.E_TIME]
-    columns = [rows[:, record.E_STOP], turned % (2.0 * math.pi), rows[:, record.E_V]]
+    turned = shaken.phase + shaken.angular_frequency * rows[:, record_layout.E_TIME]
+    columns = [rows[:, record_layout.E_STOP], turned % (2.0 * math.pi), rows[:, record_layout.E_V]]
     return np.column_stack(columns), Status(outcome)
 
 

@@ -1,30 +1,14 @@
-"""A forcing is a module with the kernels that the dispatcher tells of."""
+"""Which flow carries a rig by what shakes it, and how fast the shaking changes."""
 
 from __future__ import annotations
 
-import inspect
-import re
-
 import numpy as np
-import pytest
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import AnyStops, Recorded, Several, carries, flow_of
-from vibroimpact.engine.forcing import dispatch
 from vibroimpact.engine.parameters import Drive, rig_vector
 
-NAMES = re.findall(r"(\w+)\((plan[^)]*)\)", dispatch.__doc__ or "")
 WALL = (2.0, 1.0, 0.1, (0.5, 1.0), None, 3.0)
-
-
-@pytest.mark.parametrize("forcing", dispatch.FORCINGS)
-def test_each_has_what_is_asked_of_it(forcing: float) -> None:
-    assert len(NAMES) == 17
-    for name, arguments in NAMES:
-        asked = getattr(dispatch.FORCINGS[forcing], name)
-        given = list(inspect.signature(asked).parameters)
-        assert len(given) == len(arguments.split(",")), name
-        assert callable(getattr(dispatch, name))
 
 
 def test_the_flow_follows_from_the_forcing() -> None:

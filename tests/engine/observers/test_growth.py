@@ -16,7 +16,7 @@ from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY
 from vibroimpact.engine.state import (
     EVENT,
     ONE_MASS,

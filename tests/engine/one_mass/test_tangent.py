@@ -14,7 +14,7 @@ import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from reference.paper_signs import in_paper_signs, signed_parts
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.engine_system import engine_rig
 

@@ -11,7 +11,7 @@ from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_tables import plan_of
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series import kernels, root_variable, slopes, step
 from vibroimpact.engine.series import layout as at
@@ -187,6 +187,6 @@ def outcome_of(made: np.ndarray, asked: np.ndarray) -> int:
     plan = plan_of(made, trajectory.groups)
     _, _, outcome = trajectory.of(plan)(
         plan, asked, 0.6, 0.2, 0.0, np.zeros(ONE_MASS.width), 0.0, 1.0, 0, 100,
-        np.empty((0, record.SAMPLE)), np.empty((101, record.EVENT)),
+        np.empty((0, record_layout.SAMPLE)), np.empty((101, record_layout.EVENT)),
     )  # fmt: skip
     return outcome

@@ -12,7 +12,7 @@ from formula_stops import formula_stops
 from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.engine_system import engine_rig
 
@@ -74,7 +74,7 @@ def followed(
     end = state.copy()
     _, _, outcome = batch.trajectory(
         vector, shaken.amplitude, shaken.frequency, shaken.phase, end, 0.0, float(cycles), 0, 3000,
-        np.empty((0, record.SAMPLE)), np.empty((3001, record.EVENT)),
+        np.empty((0, record_layout.SAMPLE)), np.empty((3001, record_layout.EVENT)),
     )  # fmt: skip
     assert outcome == 0
     return end

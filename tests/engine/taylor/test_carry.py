@@ -11,7 +11,7 @@ import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, SHAKEN, between, followed, pairs, started
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import FACES, ISOLATOR, U, V
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY
 from vibroimpact.engine.state import MODE
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_system import engine_rig

@@ -15,7 +15,7 @@ from samples import sample
 from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.flow_dispatch import carries
 from vibroimpact.engine.motion import STATE, U, V
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.parameters import OWN, rig_vector
 from vibroimpact.engine.series.program import unpack
 from vibroimpact.engine.state import MODE
@@ -34,7 +34,7 @@ def end_of(rig: np.ndarray, cycles: int = 20) -> np.ndarray:
     state[U] = 0.2
     *_, outcome = trajectory(
         rig, 0.8, 0.2, 0.3, state, 0.0, cycles, 0, 3000,
-        np.empty((0, record.SAMPLE)), np.empty((3001, record.EVENT)),
+        np.empty((0, record_layout.SAMPLE)), np.empty((3001, record_layout.EVENT)),
     )  # fmt: skip
     assert outcome == 0
     return state[[U, V]]

@@ -9,7 +9,7 @@ import numpy as np
 import vibroimpact as vi
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.response.engine_system import engine_rig
 
@@ -83,8 +83,8 @@ def followed(
     cycles: int = CYCLES,
 ) -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
     """Outcome, samples, events and the end; amplitude and phase off by a share."""
-    end, events = state.copy(), np.empty((20_000, record.EVENT))
-    out = np.empty((record.SAMPLE, cycles * samples + 1))
+    end, events = state.copy(), np.empty((20_000, record_layout.EVENT))
+    out = np.empty((record_layout.SAMPLE, cycles * samples + 1))
     size = shaken.amplitude if isinstance(shaken, vi.Harmonic) else 1.0
     _, count, outcome = batch.trajectory(
         vector, size * (1.0 + share), shaken.frequency, shaken.phase + share, end, 0.0,

@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from engine.yielding.rigs import followed, started, vectors
-from vibroimpact.engine.one_mass import record
+from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 
 FRICTION = vi.FrictionIsolator(1.0, 0.01, 0.15)
@@ -62,7 +62,7 @@ def test_tables_and_taylor_steps_agree(name: str) -> None:
         vi.Oscillator(1.0, isolator, right, left), shaken, samples=20
     )
     np.testing.assert_allclose(
-        ours[: record.ACCELERATION], theirs[: record.ACCELERATION], atol=1e-12
+        ours[: record_layout.ACCELERATION], theirs[: record_layout.ACCELERATION], atol=1e-12
     )
     np.testing.assert_allclose(end, last, atol=1e-12)
     np.testing.assert_allclose(events, others, atol=1e-8)

@@ -1,63 +1,44 @@
-"""How a kernel finds the forcing: by the type of its plan, or by the number in it.
+# mypy: disable-error-code="empty-body"
+"""A forcing, whichever it is: by the type of a plan, or by the number in it.
 
 A forcing is a linear clock of two numbers (s, c) that goes on by itself, and A_t, the base
-acceleration that it stands for, which is linear in them. It is a module with these kernels:
-
-    begin(plan, amplitude, omega)          write AMPLITUDE, OMEGA, MOST, STEEPEST of the plan
-    pace(plan)                             its own rate (1/s), which limits a table's step
-    count(plan), wave(plan, n, mirrored)   the parts that it is a sum of, n from 1 on
-    plane(plan, n)                         how far behind the tables those of part n lie
-    value(plan, s, c)                      A_t
-    turned(plan, s, c, t)                  the clock after the time t
-    stepped(plan, s, c, t)                 the same, fast for a time of a step
-    release_time(plan, sign, level, s, c, limit) when sign A_t first exceeds a level
-
-and, from a mode's table,
-
-    product(plan, at, row)                 a linear function of the state row
-    expand(plan, at, row, series)          the long series of one
-    short_series(plan, table, row)         seven terms of x, from the equation of motion
-    turned_clock(plan, at, s, c)           the clock at a node or fine point
-    turn(plan, s, c, angle)                the clock a part of a step later
-    nudged(plan, s, c, angle)              the same for an angle whose square is nothing
-    pull(plan, table, s, c)                A_t h² as the mode sees it, mirrored or not
-    pull_series(plan, table, s, c, series) the long series of that
+acceleration that it stands for, which is linear in them. It is a module with the kernels that are
+declared here.
 
 Only what is neither a sum of harmonics of one frequency (`Periodic`), a constant force nor a
 `Record` needs another one, and only if its clock does not depend on the motion and restarts each
-cycle. It is a file here with these kernels (as `ramp`), in `FORCINGS` and `_by_forcing`; a code
-beside RAMP in `parameters`, which `rig_vector` writes; a type of plan in `_ADVANCE`, `_FORCING` and
-`_YIELDING` of `flow_dispatch`, which `_flow` there returns; and, unless it is a sum of waves
-(`wave`), more columns of the state row (`linear.layout`). In Python: a class in
-`model/excitation.py` (periodic: of `Repeated`); its `Drive` in `_drive` of
-`response/engine_input.py`; its free response (`response/analytic_free_response.py`) and that of
-several masses (`response/assembly_rig.py`); and whatever asks for `isinstance(…, Periodic)`.
+cycle. It is a file here with these kernels (as `ramp`), named in each declaration below and in
+`by_forcing`; a code beside RAMP in `parameters`, which `rig_vector` writes; a class in
+`flow_dispatch`, which `_flow` there returns; and, unless it is a sum of waves (`wave`), more
+columns of the state row (`linear.layout`). In Python: a class in `model/excitation.py` (periodic:
+of `Repeated`); its `Drive` in `_drive` of `response/engine_input.py`; its free response
+(`response/analytic_free_response.py`) and that of several masses (`response/assembly_rig.py`); and
+whatever asks for `isinstance(…, Periodic)`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import ModuleType
 from typing import Any
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.compiler import overload
+from vibroimpact.engine.dispatch import F, replacing
 from vibroimpact.engine.forcing import harmonic, ramp, several
-from vibroimpact.engine.jit import CHOSEN, Vector, kernel
-
-FORCINGS: dict[float, ModuleType] = {
-    par.HARMONIC: harmonic,
-    par.SEVERAL: several,
-    par.RAMP: ramp,
-}
+from vibroimpact.engine.forcing.wave import Wave
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import Row
 
 
-def _by_forcing(name: str) -> Callable[..., Any]:
-    one, many, line = (getattr(module, name) for module in (harmonic, several, ramp))
+def by_forcing(
+    one: Callable[..., Any], many: Callable[..., Any], line: Callable[..., Any]
+) -> Callable[[F], F]:
+    """Declare a function that calls the kernel of one sine, several harmonics, or a record."""
+    kernels = {par.HARMONIC: one, par.SEVERAL: many, par.RAMP: line}
 
     def plain(plan: Any, *args: Any) -> Any:
-        return getattr(FORCINGS[plan[par.FORCING]], name)(plan, *args)
+        return kernels[plan[par.FORCING]](plan, *args)
 
+    @kernel
     def looked_up(plan: Any, *args: Any) -> Any:
         kind = plan[par.FORCING]
         if kind == par.HARMONIC:
@@ -66,33 +47,100 @@ def _by_forcing(name: str) -> Callable[..., Any]:
             return line(plan, *args)
         return many(plan, *args)
 
-    plain.__name__ = name
-
-    @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
-    def _chosen(plan: Any, *args: Any) -> Any:
+    def of_type(plan: Any) -> Any:
         kind = getattr(plan, "forcing", par.HARMONIC)
-        return looked_up if kind is None else getattr(FORCINGS[kind], name).py_func
+        return looked_up if kind is None else kernels[kind]
 
-    return plain
+    return replacing(kernels.values(), plain, of_type)
 
 
-begin = _by_forcing("begin")
-pace = _by_forcing("pace")
-count = _by_forcing("count")
-plane = _by_forcing("plane")
-wave = _by_forcing("wave")
-value = _by_forcing("value")
-turned = _by_forcing("turned")
-stepped = _by_forcing("stepped")
-release_time = _by_forcing("release_time")
-product = _by_forcing("product")
-expand = _by_forcing("expand")
-short_series = _by_forcing("short_series")
-turned_clock = _by_forcing("turned_clock")
-turn = _by_forcing("turn")
-nudged = _by_forcing("nudged")
-pull = _by_forcing("pull")
-pull_series = _by_forcing("pull_series")
+@by_forcing(harmonic.begin, several.begin, ramp.begin)
+def begin(plan: Vector, amplitude: float, omega: float) -> None:
+    """Write AMPLITUDE, OMEGA, MOST and STEEPEST of the plan."""
+
+
+@by_forcing(harmonic.pace, several.pace, ramp.pace)
+def pace(plan: Vector) -> float:
+    """Its own rate (1/s), which limits a table's step."""
+
+
+@by_forcing(harmonic.count, several.count, ramp.count)
+def count(plan: Vector) -> int:
+    """How many parts it is a sum of."""
+
+
+@by_forcing(harmonic.wave, several.wave, ramp.wave)
+def wave(plan: Vector, n: int, mirrored: bool) -> Wave:
+    """Part n, from 1 on."""
+
+
+@by_forcing(harmonic.plane, several.plane, ramp.plane)
+def plane(plan: Vector, n: int) -> int:
+    """How far behind the tables those of part n lie."""
+
+
+@by_forcing(harmonic.value, several.value, ramp.value)
+def value(plan: Vector, s: float, c: float) -> float:
+    """A_t."""
+
+
+@by_forcing(harmonic.turned, several.turned, ramp.turned)
+def turned(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
+    """The clock after the time t (s)."""
+
+
+@by_forcing(harmonic.stepped, several.stepped, ramp.stepped)
+def stepped(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
+    """The same, fast for a time of a step."""
+
+
+@by_forcing(harmonic.release_time, several.release_time, ramp.release_time)
+def release_time(
+    plan: Vector, sign: float, level: float, s: float, c: float, limit: float
+) -> tuple[float, float, float]:
+    """When sign A_t first exceeds a level: t, infinite if not within the limit, and the clock."""
+
+
+@by_forcing(harmonic.product, several.product, ramp.product)
+def product(plan: Vector, at: int, row: Row) -> float:
+    """From a mode's table, a linear function of the state row."""
+
+
+@by_forcing(harmonic.expand, several.expand, ramp.expand)
+def expand(plan: Vector, at: int, row: Row, series: Vector) -> None:
+    """The long series of one."""
+
+
+@by_forcing(harmonic.short_series, several.short_series, ramp.short_series)
+def short_series(
+    plan: Vector, table: int, row: Row
+) -> tuple[float, float, float, float, float, float, float]:
+    """Seven terms of x, from the equation of motion."""
+
+
+@by_forcing(harmonic.turned_clock, several.turned_clock, ramp.turned_clock)
+def turned_clock(plan: Vector, at: int, s: float, c: float) -> tuple[float, float]:
+    """The clock at a node or fine point."""
+
+
+@by_forcing(harmonic.turn, several.turn, ramp.turn)
+def turn(plan: Vector, s: float, c: float, angle: float) -> tuple[float, float]:
+    """The clock a part of a step later."""
+
+
+@by_forcing(harmonic.nudged, several.nudged, ramp.nudged)
+def nudged(plan: Vector, s: float, c: float, angle: float) -> tuple[float, float]:
+    """The same for an angle whose square is nothing."""
+
+
+@by_forcing(harmonic.pull, several.pull, ramp.pull)
+def pull(plan: Vector, table: int, s: float, c: float) -> float:
+    """A_t h² as the mode sees it, mirrored or not."""
+
+
+@by_forcing(harmonic.pull_series, several.pull_series, ramp.pull_series)
+def pull_series(plan: Vector, table: int, s: float, c: float, series: Vector) -> None:
+    """The long series of that."""
 
 
 @kernel

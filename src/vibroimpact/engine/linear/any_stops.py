@@ -18,7 +18,8 @@ from vibroimpact.engine.motion import BOTH, RELEASED, Ended, Motion, facing, mai
 from vibroimpact.engine.state import FLIGHT, SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import rate_of
 from vibroimpact.engine.stops.places import overlapping, place_at, total_gap
-from vibroimpact.engine.stops.rigid import impact, rest, resting, rigid, settle
+from vibroimpact.engine.stops.rigid import resting, rigid
+from vibroimpact.engine.stops.rigid_events import impact, rest, settle
 
 
 @kernel

@@ -8,7 +8,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.event import begins_contact
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Stretch
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, contraction, meet, tie
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, contraction, meet, tie
 from vibroimpact.engine.stops.rigid import resting
 
 

@@ -41,7 +41,7 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, Motion, changed, coordinates, direction, main_stop
-from vibroimpact.engine.one_mass.record import ACCELERATION, BLOCK, VELOCITY
+from vibroimpact.engine.one_mass.record_layout import ACCELERATION, BLOCK, VELOCITY
 from vibroimpact.engine.stops.places import place_at, total_gap
 from vibroimpact.engine.stops.rigid import rigid
 

@@ -2,10 +2,11 @@
 
 A motion of one mass is a value (`engine.motion`) that the compiler keeps in registers. Only these
 flows know it: `table` unpacks it from the vector of a state and packs it again, once for a call.
-The motion itself is computed by `linear`, `taylor` and `yielding` (see `engine.dispatch`), with the
-stops of `stops`; observers that need more than channels are here, one file each.
+The motion itself is computed by `linear`, `taylor` and `yielding`, with the stops of `stops`; what
+they all answer is declared in `forces` and `motions`. Observers that need more than channels are
+here, one file each.
 
-Modules: `table` (functions of `engine.flow`), `channels` (what is observed), `extremes`, `margin`
-(distance from grazing), `measure` (phases), `demand` (of records), `record` (written down),
-`tangent` (disturbances).
+Modules: `forces`, `motions` (what a flow answers), `table` (functions of `engine.flow`), `channels`
+(what is observed), `extremes`, `margin` (distance from grazing), `measure` (phases), `demand` (of
+records), `record` (written down), `tangent` (disturbances).
 """

@@ -6,7 +6,7 @@ from typing import Any
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import overload
-from vibroimpact.engine.flow_dispatch import ADVANCE, AnyStops, Curved, Yielding
+from vibroimpact.engine.flow_dispatch import AnyStops, Curved, OneMassFlow, Yielding
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.motion import Ended, Motion
 
@@ -20,10 +20,11 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
         What ended the stretch (see `event`), its length (s), the velocity just before the event,
         and the motion just after it.
     """
-    chosen: Any = (ADVANCE[AnyStops], ADVANCE[Curved], ADVANCE[Yielding])[par.laws(plan)]
-    return chosen(plan, motion, limit)  # type: ignore[no-any-return]
+    flows: tuple[type[OneMassFlow], ...] = AnyStops, Curved, Yielding
+    ended: Ended = flows[par.laws(plan)].advance(plan, motion, limit)
+    return ended
 
 
 @overload(advance, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
 def _advance(plan: Any, motion: Any, limit: Any) -> Any:
-    return ADVANCE[plan.flow].py_func  # type: ignore[attr-defined]
+    return plan.flow.advance.py_func

@@ -19,7 +19,13 @@ from vibroimpact.engine.channels import (
     VELOCITY,
 )
 from vibroimpact.engine.channels import RATE as FADING_RATE
-from vibroimpact.engine.dispatch import (
+from vibroimpact.engine.forcing.dispatch import pull_series
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import ORDER, RATE, H
+from vibroimpact.engine.memory import beyond, workspace
+from vibroimpact.engine.motion import Motion, direction, facing, main_stop, unpacked
+from vibroimpact.engine.one_mass.forces import rest_level
+from vibroimpact.engine.one_mass.motions import (
     accelerated,
     begin,
     displacement,
@@ -27,15 +33,9 @@ from vibroimpact.engine.dispatch import (
     expanded_force,
     has_piece,
     read_cursor,
-    rest_level,
     write_cursor,
 )
-from vibroimpact.engine.dispatch import next_piece as following
-from vibroimpact.engine.forcing.dispatch import pull_series
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.layout import ORDER, RATE, H
-from vibroimpact.engine.memory import beyond, workspace
-from vibroimpact.engine.motion import Motion, direction, facing, main_stop, unpacked
+from vibroimpact.engine.one_mass.motions import next_piece as following
 from vibroimpact.engine.state import STEP
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
 from vibroimpact.engine.stops.places import gap_of, total_gap

@@ -9,7 +9,17 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from vibroimpact.engine.dispatch import (
+from vibroimpact.engine.event import begins_contact, stop_of
+from vibroimpact.engine.extreme_search import searching
+from vibroimpact.engine.forcing.dispatch import pull_series
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.layout import ORDER, RATE
+from vibroimpact.engine.linear.roots import jet
+from vibroimpact.engine.linear.window_bounds import Enclosed, chords
+from vibroimpact.engine.memory import stack, workspace
+from vibroimpact.engine.motion import LEFT, Motion, direction, facing, main_stop, stretch_of
+from vibroimpact.engine.one_mass.forces import rest_level
+from vibroimpact.engine.one_mass.motions import (
     accelerated,
     acceleration,
     begin,
@@ -21,17 +31,7 @@ from vibroimpact.engine.dispatch import (
     expanded_force,
     has_piece,
     next_piece,
-    rest_level,
 )
-from vibroimpact.engine.event import begins_contact, stop_of
-from vibroimpact.engine.extreme_search import searching
-from vibroimpact.engine.forcing.dispatch import pull_series
-from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.layout import ORDER, RATE
-from vibroimpact.engine.linear.roots import jet
-from vibroimpact.engine.linear.window_bounds import Enclosed, chords
-from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import LEFT, Motion, direction, facing, main_stop, stretch_of
 from vibroimpact.engine.state import FLIGHT, ONE_MASS
 from vibroimpact.engine.stops.rigid import rigid, struck
 

@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.dispatch import begin, expanded, has_piece, next_piece
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import facing, stretch_of
+from vibroimpact.engine.one_mass.motions import begin, expanded, has_piece, next_piece
 from vibroimpact.engine.state import FLIGHT
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
 from vibroimpact.engine.stops.places import gap_of
-from vibroimpact.engine.stops.rigid import impact_depth
+from vibroimpact.engine.stops.rigid_events import impact_depth
 
 
 @kernel

@@ -9,22 +9,6 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import (
-    accelerated,
-    acceleration,
-    begin,
-    coordinate,
-    displacement,
-    expanded,
-    has_piece,
-    isolator_power,
-    moment,
-    next_piece,
-    rest_level,
-    stop_power,
-    stop_push,
-    unreturned_energy,
-)
 from vibroimpact.engine.event import IMPACT, at_stop, kind_of, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
@@ -69,7 +53,25 @@ from vibroimpact.engine.observers.phases import (
     WORK,
 )
 from vibroimpact.engine.one_mass.extremes import Part, pushed, series_extremes
+from vibroimpact.engine.one_mass.forces import (
+    isolator_power,
+    rest_level,
+    stop_power,
+    stop_push,
+    unreturned_energy,
+)
 from vibroimpact.engine.one_mass.margin import leading_sign
+from vibroimpact.engine.one_mass.motions import (
+    accelerated,
+    acceleration,
+    begin,
+    coordinate,
+    displacement,
+    expanded,
+    has_piece,
+    moment,
+    next_piece,
+)
 from vibroimpact.engine.one_mass.record import recorded_kind
 from vibroimpact.engine.quadrature import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.state import SETTLING

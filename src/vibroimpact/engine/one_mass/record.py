@@ -5,16 +5,9 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import (
-    acceleration,
-    begin,
-    displacement,
-    sample_stretch,
-    stop_deformation,
-)
 from vibroimpact.engine.event import LIMIT, at_stop, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.memory import beyond, stack, workspace
+from vibroimpact.engine.memory import beyond, workspace
 from vibroimpact.engine.motion import (
     BOTH,
     Motion,
@@ -39,28 +32,33 @@ from vibroimpact.engine.observers.record import (
     WRITTEN,
     before_end,
 )
-from vibroimpact.engine.state import ONE_MASS
+from vibroimpact.engine.one_mass.forces import stop_deformation
+from vibroimpact.engine.one_mass.motions import acceleration, begin, displacement, sample_stretch
+from vibroimpact.engine.one_mass.record_layout import (
+    ACCELERATION,
+    BLOCK,
+    CLEARANCE,
+    DEFORMATION,
+    DISPLACEMENT,
+    E_BEFORE,
+    E_BEHIND,
+    E_CYCLE,
+    E_DEFORMATION,
+    E_KIND,
+    E_MEMORY,
+    E_STOP,
+    E_TIME,
+    E_U,
+    E_V,
+    EVENT,
+    MEMORY,
+    STOPS,
+    TOUCHED,
+    VELOCITY,
+    U,
+    samples,
+)
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
-
-STOPS = ONE_MASS.stops
-
-# Rows of the samples: a row a variable, so that each is one piece of memory.
-# DEFORMATION and CLEARANCE are of stop 0, and those of others follow; the stops touched are bits.
-DISPLACEMENT, VELOCITY, ACCELERATION, DEFORMATION = range(4)
-CLEARANCE = DEFORMATION + STOPS
-TOUCHED = CLEARANCE + STOPS
-MEMORY, SAMPLE = TOUCHED + 1, TOUCHED + 2
-
-BLOCK = 64
-"""Samples that are computed together."""
-U = SAMPLE
-"""Behind the rows of a block: the displacement, where the mode's own coordinate is still needed."""
-samples = stack((SAMPLE + 1) * BLOCK)
-"""Room for a block."""
-
-# Columns of an event: the state there, and the absolute acceleration just before and behind.
-E_CYCLE, E_TIME, E_KIND, E_STOP, E_U, E_V, E_DEFORMATION = range(7)
-E_BEFORE, E_BEHIND, E_MEMORY, EVENT = range(E_DEFORMATION + STOPS, E_DEFORMATION + STOPS + 4)
 
 
 @kernel

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import dispatch, event_loop, flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import dispatch as forcing
@@ -17,7 +17,7 @@ from vibroimpact.engine.motion import FACES, STATE, Motion, changed, pack, swapp
 from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
-from vibroimpact.engine.one_mass import channels
+from vibroimpact.engine.one_mass import channels, forces, motions
 from vibroimpact.engine.one_mass import demand as demands
 from vibroimpact.engine.one_mass import extremes as ranges
 from vibroimpact.engine.one_mass import margin as margins
@@ -67,17 +67,17 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
 
 @kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
-    dispatch.build(plan, amplitude, omega)
+    motions.build(plan, amplitude, omega)
 
 
 @kernel
 def too_much_work(plan: Vector, period: float) -> int:
-    return 1 if dispatch.too_much_work(plan, period) else 0
+    return 1 if motions.too_much_work(plan, period) else 0
 
 
 @kernel
 def stiff_rate(plan: Vector) -> float:
-    return dispatch.stiff_rate(plan)  # type: ignore[no-any-return]
+    return forces.stiff_rate(plan)
 
 
 @kernel
@@ -111,7 +111,7 @@ def complete(plan: Vector) -> None:
 
 @kernel
 def units(plan: Vector, units: Vector) -> None:
-    rate = dispatch.stiff_rate(plan)
+    rate = forces.stiff_rate(plan)
     for i in range(PARTS):
         units[i] = rate
     units[VELOCITY - FIRST] = 1.0
@@ -119,7 +119,7 @@ def units(plan: Vector, units: Vector) -> None:
 
 @kernel
 def size(plan: Vector, state: Vector) -> float:
-    rate: float = dispatch.stiff_rate(plan)
+    rate: float = forces.stiff_rate(plan)
     size: float = max(rate * abs(state[DISPLACEMENT]), abs(state[VELOCITY]))
     return size
 
@@ -195,7 +195,7 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
 @kernel
 def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     motion = unpacked(state)
-    free, swing, felt, carried, motion = dispatch.undisturbed(plan, motion, motion.clock, dying)
+    free, swing, felt, carried, motion = motions.undisturbed(plan, motion, motion.clock, dying)
     if not free:
         return 0
     pack(motion, state)

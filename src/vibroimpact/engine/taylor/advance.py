@@ -33,7 +33,8 @@ from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.curved import curved_stop
 from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, place_at
-from vibroimpact.engine.stops.rigid import impact, rest, rigid, settle
+from vibroimpact.engine.stops.rigid import rigid
+from vibroimpact.engine.stops.rigid_events import impact, rest, settle
 from vibroimpact.engine.taylor.mode_forces import (
     creeps,
     frame_of,

@@ -14,7 +14,7 @@ from vibroimpact.engine import saltation
 from vibroimpact.engine.event import DETACHMENT, IMPACT, TURN, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Motion, Stretch, facing, main_stop
-from vibroimpact.engine.one_mass.tangent import DISTURBANCE, MEMORY, contraction, meet
+from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
     BY_CHI,
     BY_V,

@@ -16,7 +16,7 @@ from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.window_bounds import ANYWHERE, Enclosed
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.motion import LEFT, Motion, changed, facing, main_stop, pack, unpacked
-from vibroimpact.engine.one_mass.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
+from vibroimpact.engine.one_mass.record_layout import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.series.events import PIECES, shifted
 from vibroimpact.engine.series.kernels import SLOPES, run
 from vibroimpact.engine.series.layout import (
@@ -110,8 +110,8 @@ def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
     """The clock y pieces after the step's start."""
     angle = plan[HEADER + SCALED_W] * y
     if abs(angle) < _SMALL:
-        return turn(plan, clock[0], clock[1], angle)  # type: ignore[no-any-return]
-    return turned(plan, clock[0], clock[1], y * plan[HEADER + H])  # type: ignore[no-any-return]
+        return turn(plan, clock[0], clock[1], angle)
+    return turned(plan, clock[0], clock[1], y * plan[HEADER + H])
 
 
 @kernel

@@ -34,7 +34,8 @@ from vibroimpact.engine.motion import (
 from vibroimpact.engine.state import SETTLING
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed_faces
 from vibroimpact.engine.stops.places import gap_of, place_at
-from vibroimpact.engine.stops.rigid import impact, rigid, settle
+from vibroimpact.engine.stops.rigid import rigid
+from vibroimpact.engine.stops.rigid_events import impact, settle
 from vibroimpact.engine.taylor.advance import still
 from vibroimpact.engine.taylor.mode_forces import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
