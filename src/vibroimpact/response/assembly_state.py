@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
+from vibroimpact.engine.state import FIRST, FRESH, MODE
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.assembly.state import NEAR_ZERO
@@ -42,7 +42,7 @@ def remembering(assembly: Assembly) -> tuple[str, ...]:
 def memory_places(assembly: Assembly) -> dict[str, int]:
     """Return where the memory of each such link stands in an engine's state."""
     rows = link_parts(assembly)
-    first = layout.PARTS + 2 * len(assembly.names) + len(assembly.stops)
+    first = FIRST + 2 * len(assembly.names) + len(assembly.stops)
     return {
         name: first + next(i for i, (of, yields) in enumerate(rows) if of == name and yields)
         for name in remembering(assembly)
@@ -52,23 +52,23 @@ def memory_places(assembly: Assembly) -> dict[str, int]:
 def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array:
     """Return an engine's state as the components of a dataset's state."""
     count = len(assembly.stops)
-    end = layout.PARTS + 2 * len(assembly.names)
-    mode = int(vector[layout.STATE_MODE])
+    end = FIRST + 2 * len(assembly.names)
+    mode = int(vector[MODE])
     touching = [float(mode >> f & 1) for f in range(count)]
     deformations = np.maximum(vector[end : end + count], 0.0)
     memories = [vector[place] for place in memory_places(assembly).values()]
     angle = phase % (2.0 * math.pi)
-    components = [*vector[layout.PARTS : end], *deformations, *touching, *memories, angle]
+    components = [*vector[FIRST:end], *deformations, *touching, *memories, angle]
     return np.array(components) + 0.0  # no negative zeros
 
 
 def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> AssemblyState:
     """Return an engine's state at a forcing phase as a state by names."""
     n, stops = len(assembly.names), list(assembly.stops)
-    u = vector[layout.PARTS : layout.PARTS + n]
-    v = vector[layout.PARTS + n : layout.PARTS + 2 * n]
-    d = np.maximum(vector[layout.PARTS + 2 * n :][: len(stops)], 0.0)
-    mode = int(vector[layout.STATE_MODE])
+    u = vector[FIRST : FIRST + n]
+    v = vector[FIRST + n : FIRST + 2 * n]
+    d = np.maximum(vector[FIRST + 2 * n :][: len(stops)], 0.0)
+    mode = int(vector[MODE])
     return AssemblyState(
         displacement=dict(zip(assembly.names, u.tolist(), strict=True)),
         velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
@@ -182,13 +182,13 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
             zeros[f] = order
     rows = link_parts(assembly)
     vector = np.zeros(state_width(n, len(assembly.stops) + len(rows)))
-    vector[layout.STATE_MODE] = float(mode)
-    vector[layout.STATE_FRESH] = _packed(zeros) + (NEW if rows else 0.0)
+    vector[MODE] = float(mode)
+    vector[FRESH] = _packed(zeros) + (NEW if rows else 0.0)
     for name, place in memory_places(assembly).items():
         vector[place] = state.memory.get(name, 0.0)
-    vector[layout.PARTS : layout.PARTS + n] = u
-    vector[layout.PARTS + n : layout.PARTS + 2 * n] = v
-    vector[layout.PARTS + 2 * n : layout.PARTS + 2 * n + len(deformations)] = deformations
+    vector[FIRST : FIRST + n] = u
+    vector[FIRST + n : FIRST + 2 * n] = v
+    vector[FIRST + 2 * n : FIRST + 2 * n + len(deformations)] = deformations
     return vector
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.state import FIRST, MODE
 from vibroimpact.model import Assembly, Link
 from vibroimpact.model.assembly import numbers
 from vibroimpact.response.assembly_state import memory_places
@@ -44,7 +44,7 @@ class StoredEnergy:
     def of(self, state: _Array) -> float:
         """Return kinetic and potential energy (J) of an engine's state."""
         n, count = len(self._mass), len(self._springs)
-        u, v, d = np.split(state[layout.PARTS :][: 2 * n + count], [n, 2 * n])
+        u, v, d = np.split(state[FIRST:][: 2 * n + count], [n, 2 * n])
         springs = float(u @ self._stiffness @ u) + float(self._springs @ (d * d))
         linear = 0.5 * (float(v @ self._mass @ v) + springs) - float(self._constant @ u)
         curved = sum(
@@ -55,8 +55,8 @@ class StoredEnergy:
 
     def of_pressed(self, state: _Array) -> _Array:
         """Return the energy (J) of each stop without memory that is touched, 0 of the others."""
-        energies, mode = np.zeros(len(self._springs)), int(state[layout.STATE_MODE])
-        u = state[layout.PARTS :][: len(self._mass)]
+        energies, mode = np.zeros(len(self._springs)), int(state[MODE])
+        u = state[FIRST:][: len(self._mass)]
         for f, law in self._pressed.items():
             if mode >> f & 1:
                 energies[f] = law.stored_energy(max(float(self._closing[f] @ u) - law.gap, 0.0))

@@ -25,7 +25,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.parameters import FORCING, rig_vector
 from vibroimpact.engine.settling import PATIENT
-from vibroimpact.engine.state import copy, load, measures_buffer, state_buffer, width
+from vibroimpact.engine.state import FIRST, copy, load, measures_buffer, state_buffer, width
 from vibroimpact.engine.status import DONE
 from vibroimpact.engine.steady_response import MEASURED, OUTCOME, PERIOD, RESULTS
 
@@ -81,7 +81,7 @@ def test_one_mass_is_swept_alike(rigid: bool) -> None:
     known, masses = one_mass(rigid)
     stops = 1 if rigid else 2
     expected, ends = swept(known, FREQUENCIES, 8, RESULTS)
-    width = at.PARTS + 2 + stops + 1
+    width = FIRST + 2 + stops + 1
     found, states = swept(masses, FREQUENCIES, width, MEASURED + measures.count(1, stops))
     assert (found[:, OUTCOME] == expected[:, OUTCOME]).all()
     assert (found[:, PERIOD] == expected[:, PERIOD]).all()
@@ -141,7 +141,7 @@ def test_one_mass_has_the_same_orbit_and_multipliers(rigid: bool) -> None:
         )
         assert outcome == DONE
         damping, again = np.zeros(1), np.zeros((parts, parts))
-        state = np.zeros(8 if parts == 5 else at.PARTS + parts + 1)
+        state = np.zeros(8 if parts == 5 else FIRST + parts + 1)
         state[2:4] = point[:2]
         done = lyapunov.monodromy(
             vector, amplitude, frequency, phase, state, 1, 1000, again, damping

@@ -9,7 +9,7 @@ import pytest
 from engine.assembly.exact import Exact
 from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, full_mass, neighbours, row, storeys
-from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.state import FIRST
 
 SYSTEMS = {
     "neighbours": neighbours(),
@@ -45,9 +45,9 @@ def test_differences(name: str, tables: bool) -> None:
             sides = []
             for sign in (1.0, -1.0):
                 other = start.copy()
-                other[at.PARTS + i] += sign * step
+                other[FIRST + i] += sign * step
                 sides.append(carried(system, other, lines, tables=tables)[0])
-            found = (sides[0] - sides[1])[at.PARTS : at.PARTS + width] / (2 * step)
+            found = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
             best = min(best, abs(found - q[i]).max() / abs(q[i]).max())
         assert best <= 2e-6
     # Nothing that is observed changes the motion.
@@ -74,9 +74,9 @@ def test_a_deformation_that_outlives_the_section() -> None:
         sides = []
         for sign in (1.0, -1.0):
             other = start.copy()
-            other[at.PARTS + 2 * n + f] += sign * step
+            other[FIRST + 2 * n + f] += sign * step
             sides.append(carried(system, other, lines)[0])
-        found = (sides[0] - sides[1])[at.PARTS : at.PARTS + width] / (2 * step)
+        found = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
         assert abs(q[i]).max() > 1e-3
         assert abs(found - q[i]).max() <= 1e-6 * abs(q[i]).max()
 

@@ -31,7 +31,7 @@ from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, event_of
 from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import ARRIVAL, STEP
+from vibroimpact.engine.state import ARRIVAL, FIRST, FRESH, MODE, STEP
 
 _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the stop's number decides."""
@@ -103,9 +103,9 @@ def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
     for i in range(2 * n):
-        y[i] = state[at.PARTS + i]
+        y[i] = state[FIRST + i]
     for f in range(count):
-        deformation[f] = state[at.PARTS + 2 * n + f]
+        deformation[f] = state[FIRST + 2 * n + f]
     if plan[at.RECORD] != 0.0:
         y[2 * n], y[2 * n + 1] = s, c
     else:  # the harmonics' phasors are powers of the fundamental's
@@ -114,9 +114,9 @@ def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
             y[2 * n + 2 * q], y[2 * n + 2 * q + 1] = sine, cosine
             sine, cosine = sine * c + cosine * s, cosine * c - sine * s
     y[2 * n + w] = 1.0
-    unpack_fresh(plan, state[at.STATE_FRESH])
-    plan[at.AGE] = state[at.PARTS + 2 * n + count]
-    enter_mode(plan, int(state[at.STATE_MODE]))
+    unpack_fresh(plan, state[FRESH])
+    plan[at.AGE] = state[FIRST + 2 * n + count]
+    enter_mode(plan, int(state[MODE]))
 
 
 @not_inlined
@@ -124,12 +124,12 @@ def store_motion(plan: Vector, state: Vector) -> None:
     """Write the motion as a state with its clock."""
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
-    state[at.STATE_MODE], state[at.STATE_FRESH] = plan[at.MODE], pack_fresh(plan)
+    state[MODE], state[FRESH] = plan[at.MODE], pack_fresh(plan)
     for i in range(2 * n):
-        state[at.PARTS + i] = plan[y + i]
+        state[FIRST + i] = plan[y + i]
     for f in range(count):
-        state[at.PARTS + 2 * n + f] = plan[deformation + f]
-    end = at.PARTS + 2 * n + count
+        state[FIRST + 2 * n + f] = plan[deformation + f]
+    end = FIRST + 2 * n + count
     state[end] = plan[at.AGE]
     state[end + 1], state[end + 2] = plan[y + 2 * n], plan[y + 2 * n + 1]
 
@@ -480,7 +480,7 @@ def advancing(next_stretch: Any) -> Any:
 
     def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
         """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
-        clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
+        clock = FIRST + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
         load_motion(plan, before, before[clock], before[clock + 1])
         plan[at.ORDERED_BEFORE] = plan[at.ORDERED]
         event = next_stretch(plan, limit)

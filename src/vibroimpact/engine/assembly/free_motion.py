@@ -16,7 +16,7 @@ from vibroimpact.engine.assembly.series import expand_state, travel_by_series
 from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.matrix import radius, solve
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import LARGEST, parts_buffer, square_buffer
+from vibroimpact.engine.state import FIRST, FRESH, LARGEST, MODE, parts_buffer, square_buffer
 
 
 @not_inlined
@@ -80,10 +80,10 @@ def _dies_out(plan: Vector, period: float, dying: float) -> bool:
 def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     """See `flow.undisturbed`: 2 if so, for its extremes are not written."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
-    if plan[at.RECORD] != 0.0 or state[at.STATE_MODE] != 0.0 or 2 * n + w + 1 > LARGEST:
+    if plan[at.RECORD] != 0.0 or state[MODE] != 0.0 or 2 * n + w + 1 > LARGEST:
         return 0
     enter_mode(plan, 0)
-    push, clock = int(plan[at.PUSH]), at.PARTS + 2 * n + count + 1
+    push, clock = int(plan[at.PUSH]), FIRST + 2 * n + count + 1
     steady, sine, cosine, swing = parts_buffer(), parts_buffer(), parts_buffer(), parts_buffer()
     for i in range(n):
         steady[i], steady[n + i] = plan[int(plan[at.CONSTANT]) + i], 0.0
@@ -107,8 +107,8 @@ def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int
         now_s, now_c = now_s * c + now_c * s, now_c * c - now_s * s
     energy = 0.0  # twice that of the difference
     for i in range(n):
-        sine[i] = state[at.PARTS + i] - steady[i]
-        cosine[i] = state[at.PARTS + n + i] - steady[n + i]
+        sine[i] = state[FIRST + i] - steady[i]
+        cosine[i] = state[FIRST + n + i] - steady[n + i]
     for i in range(n):
         force, momentum = 0.0, 0.0
         for j in range(n):
@@ -129,10 +129,10 @@ def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int
             return 0
     if not _dies_out(plan, 2.0 * math.pi / plan[at.OMEGA], dying):
         return 0
-    parts = beyond(state, at.PARTS)
+    parts = beyond(state, FIRST)
     for i in range(2 * n):
         parts[i] = steady[i]
     for f in range(count + 1):  # the deformations have relaxed; the mode begins
         parts[2 * n + f] = 0.0
-    state[at.STATE_FRESH] = 0.0
+    state[FRESH] = 0.0
     return 2

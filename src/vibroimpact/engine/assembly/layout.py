@@ -156,7 +156,5 @@ TERMS = 28
 STEP = 2.5
 """h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
 
-STATE_MODE, STATE_FRESH, PARTS = range(3)
-
 MOST_STOPS = 52
 """Bits of a mode, which is kept as a float."""

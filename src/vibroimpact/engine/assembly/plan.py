@@ -22,6 +22,7 @@ from vibroimpact.engine.assembly.mode import RATES_KEPT
 from vibroimpact.engine.assembly.rates import rates_size
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.stops import rebound
 from vibroimpact.law_numbers import StopNumbers
 
@@ -322,7 +323,7 @@ def plan_of(vector: Vector) -> Vector:
 
 def state_width(n: int, stops: int) -> int:
     """Length of a state with its clock."""
-    return at.PARTS + 2 * n + stops + 3
+    return FIRST + 2 * n + stops + 3
 
 
 def economy() -> Matrix:

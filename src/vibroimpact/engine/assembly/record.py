@@ -36,7 +36,7 @@ from vibroimpact.engine.observers.record import (
     before_end,
 )
 from vibroimpact.engine.observers.record import STEP as BETWEEN
-from vibroimpact.engine.state import EVENT, FRESH, STEP, T
+from vibroimpact.engine.state import EVENT, FIRST, FRESH, STEP, T
 
 E_CYCLE, E_TIME, E_KIND, E_STOP, E_BEFORE, E_BEHIND, E_ORDERED = range(7)
 """Columns of an event: its section, the time since, what happens at which stop (`observers.record`;
@@ -136,7 +136,7 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         notes[WRITTEN] += 1.0
 
     def write(plan: Vector, state: Vector, samples: Vector, columns: int, k: int) -> None:
-        clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
+        clock = FIRST + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
         ordered, undecided = plan[at.ORDERED], plan[at.UNDECIDED]
         load_motion(plan, state, state[clock], state[clock + 1])
         if open_instant(plan):

@@ -7,7 +7,7 @@ from vibroimpact.engine.assembly.events import closing, pack_fresh, unpack_fresh
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import copy
+from vibroimpact.engine.state import FIRST, FRESH, MODE, copy
 
 _FORGOTTEN = 9.0
 """What relaxes by more powers of e in a cycle is another's memory no more."""
@@ -52,7 +52,7 @@ def size(plan: Vector, state: Vector) -> float:
     """The size of a motion, as a velocity (m/s)."""
     n, rate, most = int(plan[at.MASSES]), stiff_rate(plan), 0.0
     for i in range(n):
-        most = max(most, rate * abs(state[at.PARTS + i]), abs(state[at.PARTS + n + i]))
+        most = max(most, rate * abs(state[FIRST + i]), abs(state[FIRST + n + i]))
     return most
 
 
@@ -63,9 +63,9 @@ def place(plan: Vector, state: Vector) -> None:
     A rigid stop that is passed moves its bodies apart, in the ratio of their inertias; rest stays
     where the bodies touch without closing speed.
     """
-    n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[at.STATE_MODE])
-    u, v = beyond(state, at.PARTS), beyond(state, at.PARTS + n)
-    deformation = beyond(state, at.PARTS + 2 * n)
+    n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[MODE])
+    u, v = beyond(state, FIRST), beyond(state, FIRST + n)
+    deformation = beyond(state, FIRST + 2 * n)
     new_mode = 0
     for f in range(count):
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
@@ -89,8 +89,8 @@ def place(plan: Vector, state: Vector) -> None:
             if dashpot == 0.0 and not new_mode >> f & 1:
                 d = 0.0
         deformation[f] = d
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode), 0.0
-    state[at.PARTS + 2 * n + count] = 0.0
+    state[MODE], state[FRESH] = float(new_mode), 0.0
+    state[FIRST + 2 * n + count] = 0.0
 
 
 @kernel
@@ -99,7 +99,7 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
 
     0 where the part does not outlive a period by itself.
     """
-    n, mode = int(plan[at.MASSES]), int(state[at.STATE_MODE])
+    n, mode = int(plan[at.MASSES]), int(state[MODE])
     if part >= 2 * n:
         f = part - 2 * n
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
@@ -107,23 +107,23 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
             return 0.0
         if not plan[one + at.RELAXATION] * period < _FORGOTTEN:
             return 0.0
-    before: float = state[at.PARTS + part]
-    state[at.PARTS + part] = before + by
+    before: float = state[FIRST + part]
+    state[FIRST + part] = before + by
     place(plan, state)
-    changed: float = state[at.PARTS + part] - before
+    changed: float = state[FIRST + part] - before
     return changed
 
 
 @kernel
 def point(plan: Vector, state: Vector, point: Vector) -> None:
     """See `flow.point`; deformations are those away from the bodies."""
-    copy(beyond(state, at.PARTS), point, parts(plan))
+    copy(beyond(state, FIRST), point, parts(plan))
 
 
 @kernel
 def at_point(plan: Vector, state: Vector, point: Vector) -> None:
     """See `flow.at_point`."""
-    copy(point, beyond(state, at.PARTS), parts(plan))
+    copy(point, beyond(state, FIRST), parts(plan))
     place(plan, state)
 
 
@@ -149,16 +149,16 @@ def _mirror_parts(plan: Vector, values: Vector) -> None:
 def mirror(plan: Vector, state: Vector, q: Vector) -> None:
     """See `flow.mirror`; each stop has a partner."""
     width, count = parts(plan), int(plan[at.STOPS])
-    _mirror_parts(plan, beyond(state, at.PARTS))
+    _mirror_parts(plan, beyond(state, FIRST))
     for i in range(width):
         _mirror_parts(plan, beyond(q, i * width))
-    unpack_fresh(plan, state[at.STATE_FRESH])
+    unpack_fresh(plan, state[FRESH])
     zeros = beyond(plan, int(plan[at.ZEROS]))
-    mode, new_mode = int(state[at.STATE_MODE]), 0
+    mode, new_mode = int(state[MODE]), 0
     for f in range(count):
         other = _partner(plan, f)
         if mode >> f & 1:
             new_mode |= 1 << other
         if f < other:
             zeros[f], zeros[other] = zeros[other], zeros[f]
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode), pack_fresh(plan)
+    state[MODE], state[FRESH] = float(new_mode), pack_fresh(plan)

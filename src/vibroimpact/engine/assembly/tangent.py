@@ -39,7 +39,7 @@ from vibroimpact.engine.event import (
 )
 from vibroimpact.engine.jit import Vector, kernel, not_inlined
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import DAMPING, HITS
+from vibroimpact.engine.state import DAMPING, HITS, MODE
 from vibroimpact.engine.stops.rebound import Rebound, rebound
 
 
@@ -61,7 +61,7 @@ def disturbing(tie: Any) -> Any:
     """Make `flow.unit_disturbances` of a flow, of what ties the parts of a disturbance."""
 
     def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
-        enter_mode(plan, int(state[at.STATE_MODE]))
+        enter_mode(plan, int(state[MODE]))
         n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
         width = 2 * n + count
         for i in range(width):

@@ -276,20 +276,20 @@ def _series_sum(weighted: bool) -> Any:
             weight = builder.sitofp(j, ir.DoubleType())
             return builder.fmul(row, _spread(builder, weight))
 
-        # Odd and even powers apart, as each sum waits for itself.
+        # Odd and even powers separately, as each sum waits for itself.
         high, low = _total(builder), _total(builder)
 
-        def go(total: Any, j: Any) -> None:
+        def include(total: Any, j: Any) -> None:
             before = builder.load(total, typ=_EIGHT)
             builder.store(_fused(builder, before, square, coefficient(j)), total)
 
         with cgutils.for_range(builder, builder.lshr(order, _word(1))) as loop:
             j = builder.sub(order, builder.shl(loop.index, _word(1)))
-            go(high, j)
-            go(low, builder.sub(j, _word(1)))
+            include(high, j)
+            include(low, builder.sub(j, _word(1)))
         odd = builder.and_(order, _word(1))
         with cgutils.for_range(builder, odd):
-            go(high, _word(1))
+            include(high, _word(1))
         is_odd = builder.icmp_unsigned("!=", odd, _word(0))
         upper, lower = (builder.load(one, typ=_EIGHT) for one in (high, low))
         ones, twos = builder.select(is_odd, upper, lower), builder.select(is_odd, lower, upper)

@@ -16,7 +16,7 @@ from vibroimpact.engine.assembly.curved.terms import remembers, row_of
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import copy
+from vibroimpact.engine.state import FIRST, FRESH, MODE, copy
 
 _LIMIT = of.NUMBERS + par.YIELD
 _FORGOTTEN = 9.0
@@ -35,8 +35,8 @@ def units(plan: Vector, units: Vector) -> None:
 @kernel
 def place(plan: Vector, state: Vector) -> None:
     """Make of a state the nearest that can be; its links' branches are found when it goes on."""
-    n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[at.STATE_MODE])
-    u, deformation = beyond(state, at.PARTS), beyond(state, at.PARTS + 2 * n)
+    n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[MODE])
+    u, deformation = beyond(state, FIRST), beyond(state, FIRST + 2 * n)
     touched = 0
     for f in range(count):
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
@@ -59,18 +59,18 @@ def place(plan: Vector, state: Vector) -> None:
     for f in range(count):
         plan[kept + f] = deformation[f]
     linear.place(plan, state)
-    new_mode = int(state[at.STATE_MODE])
+    new_mode = int(state[MODE])
     for f in range(count):
         if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] >= at.PUSHING:
             new_mode &= ~(1 << f)
             deformation[f] = plan[kept + f]
-    state[at.STATE_MODE], state[at.STATE_FRESH] = float(new_mode | touched), of.NEW
+    state[MODE], state[FRESH] = float(new_mode | touched), of.NEW
 
 
 @kernel
 def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) -> float:
     """Change a part by so much; return by how much it has changed. See `flow.disturb`."""
-    n, mode = int(plan[at.MASSES]), int(state[at.STATE_MODE])
+    n, mode = int(plan[at.MASSES]), int(state[MODE])
     if part >= 2 * n:
         f = part - 2 * n
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
@@ -85,17 +85,17 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
             mode >> f & 1 or kind == at.RIGID or not plan[one + at.RELAXATION] * period < _FORGOTTEN
         ):
             return 0.0
-    before: float = state[at.PARTS + part]
-    state[at.PARTS + part] = before + by
+    before: float = state[FIRST + part]
+    state[FIRST + part] = before + by
     place(plan, state)
-    changed: float = state[at.PARTS + part] - before
+    changed: float = state[FIRST + part] - before
     return changed
 
 
 @kernel
 def at_point(plan: Vector, state: Vector, point: Vector) -> None:
     """See `flow.at_point`."""
-    copy(point, beyond(state, at.PARTS), linear.parts(plan))
+    copy(point, beyond(state, FIRST), linear.parts(plan))
     place(plan, state)
 
 
@@ -103,15 +103,15 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
 def mirror(plan: Vector, state: Vector, q: Vector) -> None:
     """See `flow.mirror`: memories change their sign, links' branches both."""
     width, n, count = linear.parts(plan), int(plan[at.MASSES]), int(plan[at.STOPS])
-    mode = int(state[at.STATE_MODE])
+    mode = int(state[MODE])
     linear.mirror(plan, state, q)
     for f in range(count):
         if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] != at.LINK:
             continue
-        state[at.PARTS + 2 * n + f] = -state[at.PARTS + 2 * n + f]
+        state[FIRST + 2 * n + f] = -state[FIRST + 2 * n + f]
         for i in range(width):
             q[i * width + 2 * n + f] = -q[i * width + 2 * n + f]
-    new_mode = int(state[at.STATE_MODE])
+    new_mode = int(state[MODE])
     for f in range(count):
         row = row_of(plan, f)
         if plan[row + of.BRANCH] < 0.0:
@@ -121,7 +121,7 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
         if int(plan[row + of.BEHAVIOUR]) != of.BILINEAR:
             side = -side
         new_mode = with_side(plan, f, new_mode, side)
-    state[at.STATE_MODE] = float(new_mode)
+    state[MODE] = float(new_mode)
 
 
 @kernel
