@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.facts.scenario_map import constants
 from vibroimpact.scenarios.axes import Base
 from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.sweep_frequencies import MOST_HIGH, highest
@@ -71,8 +72,16 @@ def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
     axes = {"restitution": [0.1, 0.2], "gap_ratio": [0.5, 1.0]}
     with pytest.raises(
-        vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops, but"
+        vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops and other laws"
     ):
         vi.scenario_map(vi.Rig(rig, 1.0), axes)
     with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[1\]: 1\.2"):
         vi.scenario_map(vi.Rig(rig, 1.0), {**axes, "restitution": [0.1, 1.2]})
+
+
+def test_other_laws_with_a_restitution_are_mapped_over_it() -> None:
+    rig = vi.Rig(FREE.replace(right=vi.JankowskiBumper(2000.0, 0.5, 0.5, 1.0)), 1.0)
+    mapped = vi.scenario_map(rig, {"restitution": [0.2, 0.8], "amplitude": [1.0, 2.0]}, step=0.2)
+    assert (mapped["penetration_ratio"] > 0.0).all()
+    assert "e =" not in constants(rig, "stops.restitution", "amplitude")
+    assert "e = 0.5" in constants(rig, "gap", "amplitude")

@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import Rig, RigidStop, to_dimensionless
+from vibroimpact.model import Rig, to_dimensionless
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH, STIFFNESS
 from vibroimpact.model.units import pretty
@@ -65,13 +65,13 @@ def constants(rig: Rig, x: str, y: str) -> str:
     varied = {x, y}
     stops, shaken = rig.oscillator.stops.values(), rig.periodic
     bumpers = [one for stop in stops if (one := stop.spring_and_dashpot)]
-    walls = [stop.restitution for stop in stops if isinstance(stop, RigidStop)]
+    restitutions = PARAMETERS["stops.restitution"].numbers(rig)
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
     if "stops.stiffness" in (x, y):
         varied.add("relaxation_time")  # the damping is held
     rest = {
-        "stops.restitution": ("e =", [f"{e:.3g}" for e in walls]),
+        "stops.restitution": ("e =", [f"{e:.3g}" for e in restitutions]),
         "relaxation_time": (
             "τ =",
             [f"{rig.oscillator.angular_frequency * c / k:.3g}" for k, c in bumpers],

@@ -130,6 +130,10 @@ class Parameter(NamedTuple):
             raise _uneven(self.name, places)
         return first.value
 
+    def numbers(self, rig: Rig) -> list[float]:
+        """Return the value of each part that has it, of a parameter that is not derived."""
+        return [one.value for one in _places(rig.system).get(self.name, [])]
+
     def vary(self, rig: Rig, value: float) -> Rig:
         """Return the rig with another value.
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_mapping, check_name
 from vibroimpact.errors import InputError, alternatives, unknown
-from vibroimpact.model import Harmonic, RigidStop
+from vibroimpact.model import Harmonic
 from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
@@ -226,10 +226,8 @@ class Base(NamedTuple):
                     f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
                     "'gap_ratio', 'stops.restitution', 'amplitude' or 'damping_ratio' instead"
                 )
-            if name == "stops.restitution" and not any(
-                isinstance(stop, RigidStop) for stop in stops
-            ):
+            if name == "stops.restitution" and not PARAMETERS[name].numbers(self.base):
                 raise InputError(
-                    "rig: 'stops.restitution' applies to rigid stops, but this rig has none; vary "
-                    "another parameter, or pass a rig with a rigid stop"
+                    "rig: 'stops.restitution' applies to rigid stops and other laws that have it, "
+                    "but this rig has none; vary another parameter, or pass a rig with such a stop"
                 )
