@@ -12,7 +12,8 @@ A new stop is
   (`model/stops/__init__.py`). One mass and several, disturbances, chatter, records and measures ask
   that function. `tests/model/test_registered_wall.py` makes these edits, and states what to test:
   impacts, losses, the derivative of a cycle against differences, and where a chatter ends;
-- a deformable one that remembers more than how fast it was met:
+- a deformable one that remembers more than how fast it was met. Without engine code it is a light
+  mass between the mass and links that remember, in an `Assembly` (docs/laws/formula.md). As a kind:
 
   - *numbers*: positions and a code next to `FORMULA` in `engine/parameters.py`, which `rig_vector`
     writes; `engine_state` of `response/engine_input.py` checks initial states;
