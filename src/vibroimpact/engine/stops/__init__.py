@@ -21,9 +21,10 @@ A new stop is
     zero ends the contact; if curved, a term of `engine/series/laws/contact.py`. Several masses:
     `assembly/plan.py`, or for a curved law `assembly/curved/numbers.py`;
   - *at the stop*: a file here (force, losses, what an event there does, where a state is possible;
-    examples: `engine/stops/rigid.py`, `rigid_events.py`), with a kind of event in `engine/event.py`
-    if none fits. `advance_any` of `engine/linear/any_stops.py` calls it, `flow_of` in
-    `engine/flow_dispatch.py` selects the flow; `engine/linear/advance.py` stays fast for bumpers;
+    examples: `engine/stops/rigid.py`, `engine/stops/rigid_events.py`), with a kind of event in
+    `engine/event.py` if none fits. `advance_any` of `engine/linear/any_stops.py` calls it,
+    `flow_of` in `engine/flow_dispatch.py` selects the flow; `engine/linear/advance.py` stays fast
+    for bumpers;
   - *disturbances*: the saltation matrix (docs/theory/growth.md, section 6.2), a function of
     `engine/saltation.py` with a test of its own, called from `meet` of
     `engine/one_mass/disturbed_events.py` or `_event` of `engine/taylor/carry.py`, and `contraction`
