@@ -77,7 +77,7 @@ def read_cursor(plan: Vector, buffer: Vector) -> Cursor:
 def bound_window(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, buffer: Vector
 ) -> tuple[bool, Enclosed]:
-    """Whether the pieces from here on lie within what was seen, as far as that is easy to tell.
+    """Whether the pieces from here on lie within what was seen, as far as that is easily known.
 
     Returns
     -------
