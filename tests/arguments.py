@@ -613,7 +613,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "to_table": {"dataset": demanded(), "rows": None},
         "totals": {"motion": motion()},
     }
-    return {name: (_public(name), given) for name, given in made.items()}
+    return {name: (_public(name), keywords) for name, keywords in made.items()}
 
 
 def public() -> list[str]:
@@ -625,8 +625,8 @@ def public() -> list[str]:
 def parameters(name: str) -> list[str]:
     """The names of a public function's arguments."""
     kinds = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
-    found = inspect.signature(_public(name)).parameters.values()
-    return [one.name for one in found if one.kind in kinds]
+    entries = inspect.signature(_public(name)).parameters.values()
+    return [one.name for one in entries if one.kind in kinds]
 
 
 def write_files(folder: Path) -> None:

@@ -33,10 +33,10 @@ def same_print(expected: str, printed: str) -> bool:
     *between, last = others
     for part in between:
         starts = range(at, len(lines) - len(part) + 1)
-        found = next((i for i in starts if _same_lines(part, lines[i : i + len(part)])), None)
-        if found is None:
+        place = next((i for i in starts if _same_lines(part, lines[i : i + len(part)])), None)
+        if place is None:
             return False
-        at = found + len(part)
+        at = place + len(part)
     end = len(lines) - len(last)
     return end >= at and _same_lines(last, lines[end:])
 

@@ -92,22 +92,22 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_every_public_function_has_a_valid_call(folder: Path) -> None:
     made = arguments.calls(folder)
     assert set(arguments.public()) - {"explore"} <= set(made)
-    for name, (_, given) in made.items():
+    for name, (_, keywords) in made.items():
         if "." not in name and name != "Law":  # whose numbers have any names
-            assert set(given) == set(arguments.parameters(name)), name
+            assert set(keywords) == set(arguments.parameters(name)), name
 
 
 @pytest.mark.parametrize("name", QUICK)
 def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
-    function, given = arguments.calls(folder)[name]
+    function, keywords = arguments.calls(folder)[name]
     labels = [label for label in arguments.NONSENSE if name not in RUNS or label not in ENDLESS]
-    tried = [(field, label) for field in given for label in labels]
+    tried = [(field, label) for field in keywords for label in labels]
     for field, label in random.Random(name).sample(tried, min(len(tried), sample(10_000, 25))):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                function(**{**given, field: arguments.NONSENSE[label]})
+                function(**{**keywords, field: arguments.NONSENSE[label]})
             except vi.InputError as error:
                 message = str(error)
                 assert message.isprintable(), (field, label)
@@ -120,10 +120,10 @@ def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.Monke
 @pytest.mark.parametrize("wrong", [5, "x", int, [print]])
 def test_a_progress_that_is_not_a_function_is_one_line(wrong, folder, monkeypatch):
     monkeypatch.chdir(folder)
-    for function, given in arguments.calls(folder).values():
-        if "progress" in given:
+    for function, keywords in arguments.calls(folder).values():
+        if "progress" in keywords:
             with pytest.raises(vi.InputError, match=r"^progress: "):
-                function(**{**given, "progress": wrong})
+                function(**{**keywords, "progress": wrong})
 
 
 COUNTS = ("seed", "random", "samples", "window", "max_cycles", "max_events", "exponent_cycles")
@@ -132,10 +132,10 @@ COUNTS = ("seed", "random", "samples", "window", "max_cycles", "max_events", "ex
 @pytest.mark.parametrize("wrong", [0.5, "x", -1, None, [1], 10**400])
 @pytest.mark.parametrize("name", ["bifurcation_diagram", "coexisting_motions", "steady"])
 def test_a_count_that_is_not_one_is_one_line(name, wrong, folder):
-    function, given = arguments.calls(folder)[name]
-    for field in set(COUNTS) & set(given):
+    function, keywords = arguments.calls(folder)[name]
+    for field in set(COUNTS) & set(keywords):
         with pytest.raises(vi.InputError, match=rf"^{field}: .* whole number"):
-            function(**{**given, field: wrong})
+            function(**{**keywords, field: wrong})
 
 
 WRONG = [
@@ -153,9 +153,9 @@ WRONG = [
 
 @pytest.mark.parametrize(("field", "wrong"), WRONG)
 def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
-    function, given = arguments.calls(folder)["bifurcation_diagram"]
+    function, keywords = arguments.calls(folder)["bifurcation_diagram"]
     with pytest.raises(vi.InputError, match=rf"^{field}"):
-        function(**{**given, field: wrong})
+        function(**{**keywords, field: wrong})
 
 
 @pytest.mark.parametrize(
@@ -192,9 +192,9 @@ def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
 )
 def test_what_cannot_be_used_is_one_line(name, field, wrong, folder, monkeypatch):
     monkeypatch.chdir(folder)
-    function, given = arguments.calls(folder)[name]
+    function, keywords = arguments.calls(folder)[name]
     with pytest.raises(vi.InputError, match=rf"^{field}"):
-        function(**{**given, field: wrong})
+        function(**{**keywords, field: wrong})
 
 
 def test_a_value_without_a_text_of_its_own_is_named_by_its_type():

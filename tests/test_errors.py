@@ -28,36 +28,36 @@ def test_a_suggestion_requires_the_stated_likeness():
 
 def test_a_long_list_loses_items_before_its_last():
     assert short_line(f"name: 'x'; use {alternatives(NAMES[:9])}").count(",") == 7
-    told = short_line(f"name: 'x'; use {alternatives(NAMES)}")
-    assert told.startswith("name: 'x'; use channel 0, channel 1, channel 2, ")
-    kept = told.count("channel") - 2
-    assert told.endswith(
+    line = short_line(f"name: 'x'; use {alternatives(NAMES)}")
+    assert line.startswith("name: 'x'; use channel 0, channel 1, channel 2, ")
+    kept = line.count("channel") - 2
+    assert line.endswith(
         f"channel {kept - 1}, ... {498 - kept} more ..., channel 498 or channel 499"
     )
-    assert LONGEST - 20 < len(told) <= LONGEST
+    assert LONGEST - 20 < len(line) <= LONGEST
 
 
 def test_the_longer_of_two_lists_is_cut_first():
     keys = "use a, b, c, d, e or f"
-    told = short_line(f"one: use {alternatives(NAMES)}; two: {keys}")
-    assert told.endswith(f"channel 499; two: {keys}")
-    assert len(told) <= LONGEST
+    line = short_line(f"one: use {alternatives(NAMES)}; two: {keys}")
+    assert line.endswith(f"channel 499; two: {keys}")
+    assert len(line) <= LONGEST
 
 
 @pytest.mark.parametrize("part", ["word ", "abcdefghi; ", "a b c d e f g h i j, "])
 def test_what_is_no_list_loses_its_middle(part):
-    told = str(InputError(f"field: {part * 100} the end"))
-    assert told.startswith(f"field: {part.strip()}")
-    assert told.endswith(" the end")
-    assert " ... " in told
-    assert LONGEST - 20 < len(told) <= LONGEST
+    message = str(InputError(f"field: {part * 100} the end"))
+    assert message.startswith(f"field: {part.strip()}")
+    assert message.endswith(" the end")
+    assert " ... " in message
+    assert LONGEST - 20 < len(message) <= LONGEST
 
 
 def test_the_path_of_a_file_is_kept():
     path = f"/{'folder/' * 20}file.csv"
-    told = str(InputError(f"file: {path!r}; use {alternatives(NAMES)}"))
-    assert repr(path) in told
-    assert len(told) <= LONGEST + len(repr(path))
+    message = str(InputError(f"file: {path!r}; use {alternatives(NAMES)}"))
+    assert repr(path) in message
+    assert len(message) <= LONGEST + len(repr(path))
 
 
 def _many_columns(path):
@@ -98,9 +98,9 @@ def test_errors_of_readers_are_short(tmp_path, monkeypatch, reader):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(vi.InputError) as error:
         reader(tmp_path)
-    told = str(error.value)
-    assert len(told) <= LONGEST + len(str(tmp_path / "'a.csv'"))
-    assert told.count("channel") < 40
+    message = str(error.value)
+    assert len(message) <= LONGEST + len(str(tmp_path / "'a.csv'"))
+    assert message.count("channel") < 40
 
 
 def test_errors_of_commands_are_short(tmp_path, capsys):
@@ -114,6 +114,6 @@ def test_errors_of_commands_are_short(tmp_path, capsys):
         ["x" * 999],
     ):
         assert main([*words]) == 2
-        told = capsys.readouterr().err.replace(repr(str(study)), "").strip()
-        assert "\n" not in told
-        assert len(told) <= LONGEST + len("vibroimpact: error: ")
+        line = capsys.readouterr().err.replace(repr(str(study)), "").strip()
+        assert "\n" not in line
+        assert len(line) <= LONGEST + len("vibroimpact: error: ")

@@ -42,11 +42,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @cache
 def _result(name: str, folder: Path) -> Any:
-    function, given = arguments.calls(folder)[name]
+    function, keywords = arguments.calls(folder)[name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # the calls are short on purpose
         warnings.simplefilter("ignore", UserWarning)
-        return function(**given)
+        return function(**keywords)
 
 
 FUNCTIONS = sorted(set(arguments.public()) - {"explore"})

@@ -24,7 +24,7 @@ GRID = [1.0, 2.0]
 @pytest.mark.parametrize("rig", [CODE, CASE, vi.Rig(OSCILLATOR, AMPLITUDE)])
 def test_sweeps(rig):
     expected = vi.sweep(vi.Rig(OSCILLATOR, "0.05 g"), GRID)
-    for found in (
+    for curves in (
         vi.sweep(rig, GRID),
         vi.sweep(rig, np.array(GRID), ["forward", "backward"]),
         vi.sweep(rig=rig, frequencies=GRID),
@@ -32,7 +32,7 @@ def test_sweeps(rig):
         vi.sweeps({"mine": rig}, GRID).isel(rig=0, drop=True),
         vi.sweeps((one for one in [rig]), GRID).isel(rig=0, drop=True),
     ):
-        xr.testing.assert_equal(found, expected)
+        xr.testing.assert_equal(curves, expected)
 
 
 def test_names_of_rigs():
@@ -49,8 +49,8 @@ def test_one_motion():
     expected = vi.simulate(rig, 5)
     for one in (CODE, CASE):
         for frequency in ("2 Hz", 2.0, np.float64(2.0)):
-            found = vi.simulate(one, 5, frequency=frequency)
-            xr.testing.assert_identical(found, expected)
+            motion = vi.simulate(one, 5, frequency=frequency)
+            xr.testing.assert_identical(motion, expected)
     xr.testing.assert_identical(vi.simulate(CASE.rig.at("2 Hz"), 5), expected)
     xr.testing.assert_identical(vi.steady(CODE, frequency=2.0), vi.steady(rig))
     xr.testing.assert_identical(vi.orbit(CODE, frequency=2.0), vi.orbit(rig))
@@ -61,8 +61,8 @@ def test_one_motion():
 def test_branches():
     rig = vi.Rig(OSCILLATOR, SHAKEN)
     expected = vi.branch(rig, vary={"frequency": (1.98, 2.02)})
-    found = vi.branch(CODE, frequency=2.0, vary={"frequency": (1.98, "2.02 Hz")})
-    xr.testing.assert_identical(not_published(found), expected)
+    branch = vi.branch(CODE, frequency=2.0, vary={"frequency": (1.98, "2.02 Hz")})
+    xr.testing.assert_identical(not_published(branch), expected)
     lowest = vi.branch(CODE, vary={"frequency": (1.98, 2.02)})
     assert float(lowest["frequency"].min()) == pytest.approx(1.98)
     diagram = vi.resonance_diagram(rig, {"frequency": (1.4, 2.0)}, starts=3)
@@ -82,13 +82,13 @@ def test_scenarios_and_parameters():
     rig = vi.Rig(OSCILLATOR, AMPLITUDE)
     assert classify(CODE, grid).features == classify(rig, grid).features
     axes = {"gap": [0.005, 0.02], "stiffness_ratio": [2.0, 10.0]}
-    found = vi.scenario_map(CODE, axes, step=0.2)
-    xr.testing.assert_identical(found, vi.scenario_map(rig, axes, step=0.2))
+    scenarios = vi.scenario_map(CODE, axes, step=0.2)
+    xr.testing.assert_identical(scenarios, vi.scenario_map(rig, axes, step=0.2))
     assert vi.to_dimensionless(CODE) == vi.to_dimensionless(rig)
 
 
 STUDY = """
-name = "found"
+name = "studied rig"
 [oscillator]
 mass = "550 kg"
 isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
@@ -117,10 +117,10 @@ def study(tmp_path):
 def test_a_study_file(study):
     path = study()
     expected = vi.sweep(vi.Rig(STUDIED, "0.04 g"), GRID)
-    for given in (path, str(path)):
-        xr.testing.assert_equal(vi.sweep(given, GRID), expected)
-        assert vi.sweeps([CODE, given], GRID)["rig"].values.tolist() == [CODE, "found"]
-        motion = vi.simulate(given, 5, frequency="2 Hz")
+    for source in (path, str(path)):
+        xr.testing.assert_equal(vi.sweep(source, GRID), expected)
+        assert vi.sweeps([CODE, source], GRID)["rig"].values.tolist() == [CODE, "studied rig"]
+        motion = vi.simulate(source, 5, frequency="2 Hz")
         one = vi.simulate(vi.Rig(STUDIED, vi.Harmonic("0.04 g", 2.0)), 5)
         xr.testing.assert_identical(motion, one)
     guess = vi.identify(path, expected, "isolator.stiffness", tried=0, starts=1, profiles=False)
@@ -241,12 +241,12 @@ def _takes_a_rig():
 @pytest.mark.parametrize(("name", "key"), [*_takes_a_rig()])
 def test_one_of_several_amplitudes_is_never_chosen(name, key, tmp_path):
     """A list has one amplitude for each frequency of a sweep, and no other function knows which."""
-    function, given = arguments.calls(tmp_path).get(name, (getattr(vi, name), {}))
-    given = {**given, key: vi.Rig(arguments.rig(), LISTED)}
+    function, keywords = arguments.calls(tmp_path).get(name, (getattr(vi, name), {}))
+    keywords = {**keywords, key: vi.Rig(arguments.rig(), LISTED)}
     with pytest.raises(
         vi.InputError, match=r"^(shaking|amplitude): (a list of )?2 ampl.* pass one"
     ):
-        function(**given)
+        function(**keywords)
 
 
 @pytest.mark.parametrize(

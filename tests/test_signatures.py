@@ -22,11 +22,13 @@ RIG_TYPE = re.compile(r"\b(AnyRig|Rig|Oscillator)\b")
 
 
 def _functions() -> dict[str, inspect.Signature]:
-    found: dict[str, Any] = {name: getattr(vi, name) for name in vi.__all__}
-    found |= {f"figures.{name}": getattr(figures, name) for name in figures.__all__}
-    found |= {f"laboratory.{name}": getattr(vi.laboratory, name) for name in ("case", "campaign")}
+    public: dict[str, Any] = {name: getattr(vi, name) for name in vi.__all__}
+    public |= {f"figures.{name}": getattr(figures, name) for name in figures.__all__}
+    public |= {f"laboratory.{name}": getattr(vi.laboratory, name) for name in ("case", "campaign")}
     return {
-        name: inspect.signature(thing) for name, thing in found.items() if inspect.isfunction(thing)
+        name: inspect.signature(thing)
+        for name, thing in public.items()
+        if inspect.isfunction(thing)
     }
 
 
@@ -157,7 +159,7 @@ def test_no_function_takes_a_rig_in_parts(function):
 def test_long_computations_take_what_their_tasks_allow():
     words = {"where", "threads", "progress"}
     taking = {name: words & set(_named(name)) for name in FUNCTIONS if "progress" in _named(name)}
-    assert {name: found for name, found in taking.items() if "." not in name} == {
+    assert {name: options for name, options in taking.items() if "." not in name} == {
         **dict.fromkeys(MANY_TASKS, words),
         **dict.fromkeys(FEW_TASKS, words - {"where"}),
         **dict.fromkeys(ONE_TASK, words & {"progress"}),

@@ -26,13 +26,13 @@ def test_states_peaks_forces_and_times(name: str) -> None:
         motion = vi.simulate(rig, cycles, start)
         end = motion["final_state"]
         for part, exact in (("displacement", true[: len(names)]), ("velocity", true[len(names) :])):
-            found = end.sel(component=[f"{part}.{one}" for one in names]).values
+            values = end.sel(component=[f"{part}.{one}" for one in names]).values
             expected = np.array(exact, float)
-            assert np.abs(found - expected).max() <= EXACT * np.abs(expected).max()
+            assert np.abs(values - expected).max() <= EXACT * np.abs(expected).max()
     assert motion.sizes["event"] == known.events
     columns = (motion[f"event_{one}"].values[-len(known.last) :] for one in ("stop", "contact"))
-    found = [(stop, WORDS[what]) for stop, what in zip(*columns, strict=True)]
-    assert found == [(stop, kind) for stop, kind, _ in known.last]
+    contacts = [(stop, WORDS[what]) for stop, what in zip(*columns, strict=True)]
+    assert contacts == [(stop, kind) for stop, kind, _ in known.last]
     times = np.array([time for _, _, time in known.last], float)
     off = motion["event_time"].values[-len(times) :] - times
     assert np.abs(off).max() <= EXACT * rig.harmonic.period

@@ -78,12 +78,12 @@ def test_a_sweep_and_orbits_see_it_likewise() -> None:
         np.testing.assert_allclose(one[name], other[name], rtol=1e-11)
     np.testing.assert_allclose(one["eccentricity"] - SHIFT, other["eccentricity"], atol=1e-11)
     np.testing.assert_array_equal(one["motion"], other["motion"])
-    found = [vi.orbit(vi.Rig(rig, SHAKEN)) for rig in (forced, shifted)]
+    orbits = [vi.orbit(vi.Rig(rig, SHAKEN)) for rig in (forced, shifted)]
     for part in ("real", "imag"):
-        np.testing.assert_allclose(*(one[f"multiplier_{part}"] for one in found), atol=1e-11)
+        np.testing.assert_allclose(*(one[f"multiplier_{part}"] for one in orbits), atol=1e-11)
     np.testing.assert_allclose(
-        found[0]["final_state"].values[:4] - [SHIFT, 0, 0, 0],
-        found[1]["final_state"].values[:4],
+        orbits[0]["final_state"].values[:4] - [SHIFT, 0, 0, 0],
+        orbits[1]["final_state"].values[:4],
         atol=1e-12,
     )
 
@@ -188,13 +188,13 @@ def test_a_mass_bounces_once_a_cycle_on_a_shaken_floor(of: str) -> None:
     # As a fixed point of the map, seen a third of a cycle behind the impact.
     u, v = flight(period / 3)
     later = shaken.replace(phase=shaken.phase + math.tau / 3)
-    found = vi.orbit(vi.Rig(FLOOR, later), vi.State(u, v))
-    np.testing.assert_allclose(found["final_state"].values[:2], [u, v], atol=1e-12)
-    moduli = np.hypot(found["multiplier_real"], found["multiplier_imag"]).values[:2]
+    orbit = vi.orbit(vi.Rig(FLOOR, later), vi.State(u, v))
+    np.testing.assert_allclose(orbit["final_state"].values[:2], [u, v], atol=1e-12)
+    moduli = np.hypot(orbit["multiplier_real"], orbit["multiplier_imag"]).values[:2]
     assert moduli.prod() == pytest.approx(e**2, rel=1e-10)
     # Trace of the saltation matrix times the flight (1 T; 0 1): the jump of acceleration over v.
     jump = (1 + e) * (-G - amplitude * math.sin(angle)) / (-up / e)
-    trace = complex(*(found[f"multiplier_{part}"].values.sum() for part in ("real", "imag")))
+    trace = complex(*(orbit[f"multiplier_{part}"].values.sum() for part in ("real", "imag")))
     assert trace == pytest.approx(-2 * e + jump * period, rel=1e-9)
 
 
@@ -206,5 +206,5 @@ def test_a_fall_through_a_thick_fluid_on_a_weak_spring_keeps_its_digits():
     expected = -g * (-math.expm1(-slow * t) / k - math.exp(-slow * t) / (fast * (fast - slow)))
     rig = vi.Oscillator(1.0, vi.Isolator(k, c), force=-g)
     fallen = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0 / t)), 1, vi.State(0.0), samples=0)
-    found = float(fallen["final_state"].sel(component="displacement"))
-    assert found == pytest.approx(expected, rel=1e-13)
+    end = float(fallen["final_state"].sel(component="displacement"))
+    assert end == pytest.approx(expected, rel=1e-13)

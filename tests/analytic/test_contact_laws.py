@@ -55,11 +55,11 @@ def returned(stop, speed: float, side: int = 1, mass: float = 1.0) -> float:
 def test_restitution_of_each_relation(relation: str, side: int) -> None:
     for e, expected in zip(ASKED, RETURNED[relation], strict=True):
         stop = vi.PowerBumper(1e4, GAP, restitution=e, relation=relation)
-        found = returned(stop, 1.0, side)
-        assert found == pytest.approx(expected, abs=5.1e-4)
+        ratio = returned(stop, 1.0, side)
+        assert ratio == pytest.approx(expected, abs=5.1e-4)
         # (1 + χ v) of the two sides: ln[(1 + d)/(1 − d e)] = d (1 + e).
         d = stop.dissipation_number
-        assert math.log((1 + d) / (1 - d * found)) == pytest.approx(d * (1 + found), rel=1e-10)
+        assert math.log((1 + d) / (1 - d * ratio)) == pytest.approx(d * (1 + ratio), rel=1e-10)
 
 
 @pytest.mark.parametrize("e", [0.05, *ASKED, 0.99])
@@ -122,8 +122,8 @@ def test_a_mass_that_is_pushed_from_rest_where_it_touches(exponent: float) -> No
     exact = solve_ivp(
         slope, (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-14, max_step=1e-3
     ).y[:, -1]
-    found = vi.simulate(vi.Rig(rig, shaken), 0.06, samples=0)["final_state"].values[:2]
-    np.testing.assert_allclose(found, exact, atol=1e-9)
+    end = vi.simulate(vi.Rig(rig, shaken), 0.06, samples=0)["final_state"].values[:2]
+    np.testing.assert_allclose(end, exact, atol=1e-9)
 
 
 @pytest.mark.parametrize("exponent", [1.5, 2.0, 3.0])
@@ -149,5 +149,5 @@ def test_a_contact_that_is_looked_at_just_before_it_ends(
         slope, (0.0, parts), begin, "DOP853", times, rtol=1e-12, atol=1e-15, max_step=1e-4
     ).y.T
     for time, state in zip(times, exact, strict=True):
-        found = vi.simulate(vi.Rig(rig, shaken), time, start, samples=0)["final_state"].values[:2]
-        np.testing.assert_allclose(found, state, atol=1e-9)
+        end = vi.simulate(vi.Rig(rig, shaken), time, start, samples=0)["final_state"].values[:2]
+        np.testing.assert_allclose(end, state, atol=1e-9)

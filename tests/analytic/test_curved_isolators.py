@@ -68,9 +68,9 @@ def test_a_bouc_wen_memory_is_bounded(exponent: int, beta: float, gamma: float) 
     law = vi.BoucWenIsolator(2.5, 0.5, 0.5, 0.0, exponent, beta, gamma)
     most = law.yield_displacement * (beta + gamma) ** (-1.0 / exponent)
     shaken = SHAKEN.replace(amplitude=4.0)
-    found = [held(law, shaken, cycles=cycles)[2] for cycles in np.linspace(0.1, 8.0, 60)]
-    assert np.abs(found).max() <= most * (1 + 1e-14)
-    assert np.abs(found).max() > 0.99 * most
+    memories = [held(law, shaken, cycles=cycles)[2] for cycles in np.linspace(0.1, 8.0, 60)]
+    assert np.abs(memories).max() <= most * (1 + 1e-14)
+    assert np.abs(memories).max() > 0.99 * most
 
 
 def test_sharp_bouc_wen_is_nearly_bilinear() -> None:

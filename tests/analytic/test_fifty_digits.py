@@ -85,9 +85,9 @@ def oscillator_and_reference_rig(setup: Setup) -> tuple[vi.Oscillator, Rig]:
 
 
 def reference_start(setup: Setup) -> tuple[float, float, float, float]:
-    u, v, given = setup.start.displacement, setup.start.velocity, setup.start.deformation
-    right = given.get("right", max(u - setup.right[2], 0.0) if setup.right else 0.0)
-    left = given.get("left", max(-u - setup.left[2], 0.0) if setup.left else 0.0)
+    u, v, deformations = setup.start.displacement, setup.start.velocity, setup.start.deformation
+    right = deformations.get("right", max(u - setup.right[2], 0.0) if setup.right else 0.0)
+    left = deformations.get("left", max(-u - setup.left[2], 0.0) if setup.left else 0.0)
     return u, v, right, 0.0 - left
 
 

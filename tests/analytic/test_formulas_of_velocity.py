@@ -100,15 +100,15 @@ def followed(
             events.append((lambda t, y, s=side: stop(s * y[0] - gap, s * y[1]), rises))
         for event, rises in events:
             event.terminal, event.direction = True, rises
-        found = solve_ivp(
+        solution = solve_ivp(
             rates, (t, end), y, "DOP853", events=[event for event, _ in events],
             rtol=1e-13, atol=1e-16, max_step=step,
         )  # fmt: skip
-        t, y = found.t[-1], found.y[:, -1].copy()
-        fastest = max(fastest, np.abs(found.y[1]).max())
-        if found.status == 0:
+        t, y = solution.t[-1], solution.y[:, -1].copy()
+        fastest = max(fastest, np.abs(solution.y[1]).max())
+        if solution.status == 0:
             return y, fastest, contacts
-        which = next(i for i, times in enumerate(found.t_events) if len(times))
+        which = next(i for i, times in enumerate(solution.t_events) if len(times))
         if which == 0:
             y[1], way = 0.0, -way
         elif not side:

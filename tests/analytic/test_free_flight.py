@@ -116,8 +116,8 @@ def error(oscillator: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, cycle
     """Largest error of displacement or velocity over a run, as a share of their sizes in it."""
     data = vi.simulate(vi.Rig(oscillator, shaken), cycles, start, samples=7)
     exact = vibration(oscillator, shaken, start, data["cycle"].values)
-    found = np.stack([data["displacement"], data["velocity"]])
-    return float((np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max())
+    states = np.stack([data["displacement"], data["velocity"]])
+    return float((np.abs(states - exact).max(axis=1) / np.abs(exact).max(axis=1)).max())
 
 
 @pytest.mark.parametrize("damping_ratio", [0.0, 0.02, 0.9999, 1.0, 1.0001, 3.0, 40.0])
@@ -143,8 +143,8 @@ def test_transient(ratio: float, damping_ratio: float) -> None:
 def test_undamped_resonance_is_refused(scale: float) -> None:
     free = rig(0.0)
     frequency = free.natural_frequency * scale
-    told = r"^frequency: .* grows without bound; .* add isolator damping$"
-    with pytest.raises(vi.InputError, match=told):
+    message = r"^frequency: .* grows without bound; .* add isolator damping$"
+    with pytest.raises(vi.InputError, match=message):
         vi.simulate(vi.Rig(free, vi.Harmonic(AMPLITUDE, frequency)), 10)
     for oscillator in (free, free.replace(right=vi.Bumper(1e5, 1e3, 0.01))):
         # With bumpers the motion is bounded, but not the reference of η.

@@ -139,9 +139,9 @@ def test_the_first_pass_is_found(
     phase = top - before * math.pi / 2 - half
     for sides in (side, "both"):
         rig = flight.between(depth, met, sides)
-        angles, found = touches(flight, rig, phase, (top - phase) / math.tau)
-        assert len(found)
-        assert found[0] == (1 if side == "right" else -1)
+        angles, signs = touches(flight, rig, phase, (top - phase) / math.tau)
+        assert len(signs)
+        assert signs[0] == (1 if side == "right" else -1)
         assert abs(angles[0] - (top - half)) * half < ROUNDING
         rig = flight.between(-depth, met, sides)
         angles, _ = touches(flight, rig, phase, (top + math.pi / 2 - phase) / math.tau)

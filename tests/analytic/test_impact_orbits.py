@@ -38,17 +38,17 @@ def section(orbit: Orbit) -> tuple[vi.Harmonic, vi.State]:
 
 def largest(data, count: int = 2) -> list[complex]:
     real, imaginary = data["multiplier_real"].values, data["multiplier_imag"].values
-    found = sorted((complex(a, b) for a, b in zip(real, imaginary, strict=True)), key=abs)
-    return found[::-1][:count]
+    multipliers = sorted((complex(a, b) for a, b in zip(real, imaginary, strict=True)), key=abs)
+    return multipliers[::-1][:count]
 
 
 @pytest.mark.parametrize("name", sample([*CASES], [*CASES][::2]))
 def test_orbit_and_multipliers(name: str) -> None:
     one = CASES[name]
     with mp.workdps(30):
-        found = possible_orbits(one)
-        assert found
-        for orbit in found:
+        candidates = possible_orbits(one)
+        assert candidates
+        for orbit in candidates:
             shaken, start = section(orbit)
             near = start.replace(velocity=start.velocity * (1 + 1e-4))
             data = vi.orbit(vi.Rig(rig(one), shaken), near, one.cycles)

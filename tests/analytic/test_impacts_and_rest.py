@@ -150,9 +150,9 @@ def test_multipliers_are_the_derivative_of_the_motion(right, left, amplitude, fr
     assert memory[i] < 1e-13
     shaken = shaken.replace(phase=math.tau * float(settled["cycle"][i]))
     start = vi.State(float(settled["displacement"][i]), float(settled["velocity"][i]))
-    found = vi.orbit(vi.Rig(rig, shaken), start, int(settled["period"]))
-    monodromy = found["monodromy"].values[:2, :2]
-    numeric = central(rig, shaken, start, int(found["period"]))
+    orbit = vi.orbit(vi.Rig(rig, shaken), start, int(settled["period"]))
+    monodromy = orbit["monodromy"].values[:2, :2]
+    numeric = central(rig, shaken, start, int(orbit["period"]))
     np.testing.assert_allclose(numeric, monodromy, atol=1e-7 * max(1.0, np.abs(monodromy).max()))
 
 
@@ -160,10 +160,10 @@ def test_a_chatter_into_rest_forgets_all() -> None:
     """Whatever the mass did before, it leaves the wall at the same time: all multipliers are 0."""
     rig = vi.Oscillator(1.0, ISOLATOR, vi.RigidStop(0.5, -0.4))
     shaken = vi.Harmonic(1.0, 0.08)
-    found = vi.orbit(vi.Rig(rig, shaken))
-    moduli = np.hypot(found["multiplier_real"].values, found["multiplier_imag"].values)
+    orbit = vi.orbit(vi.Rig(rig, shaken))
+    moduli = np.hypot(orbit["multiplier_real"].values, orbit["multiplier_imag"].values)
     assert moduli.max() < 1e-12
-    assert int(found["stable"]) == 1
+    assert int(orbit["stable"]) == 1
     ends = [
         vi.simulate(vi.Rig(rig, shaken), 3, vi.State(-1.0, v), samples=0)["final_state"].values
         for v in (0.0, 1e-3, 0.1)

@@ -117,13 +117,13 @@ STRAIGHT = {
 def test_ramps_and_steps_added_up_with_forty_digits(name: str) -> None:
     record, periods = STRAIGHT[name]
     dampings = sample([0.0, 0.05, 0.7], [0.05])
-    found = vi.response_spectrum(vi.Record(record.samples, record.step), periods, dampings)
+    spectrum = vi.response_spectrum(vi.Record(record.samples, record.step), periods, dampings)
     with mp.workdps(40):
         for i, ratio in enumerate(dampings):
             for j, period in enumerate(periods):
                 u, v, a = record.largest(period, ratio)
                 at = {"damping_ratio": i, "natural_period": j}
-                one = found.isel(at)
+                one = spectrum.isel(at)
                 assert float(one["spectral_displacement"]) == pytest.approx(u, rel=EXACT)
                 assert float(one["spectral_velocity"]) == pytest.approx(v, rel=EXACT)
                 assert float(one["spectral_acceleration"]) == pytest.approx(a, rel=EXACT)
@@ -138,27 +138,27 @@ PERIODS = np.array([0.013, 0.05, 0.31, 1.0, 1.9, 7.0])
 def test_a_step_that_lasts() -> None:
     """u = A/ω² (1 + exp(-π ζ / √(1 − ζ²))), and 2 A/ω² if nothing damps."""
     for ratio in (0.0, 0.02, 0.3, 0.95):
-        found = vi.response_spectrum(vi.Record([2.0] * 300, 0.1), PERIODS, ratio)
+        spectrum = vi.response_spectrum(vi.Record([2.0] * 300, 0.1), PERIODS, ratio)
         over = 1.0 + math.exp(-math.pi * ratio / math.sqrt(1.0 - ratio**2))
-        np.testing.assert_allclose(found["pseudo_acceleration"], 2.0 * over, rtol=EXACT)
+        np.testing.assert_allclose(spectrum["pseudo_acceleration"], 2.0 * over, rtol=EXACT)
 
 
 def test_a_step_that_ends_and_what_comes_behind_it() -> None:
     """Undamped: 2 A/ω² sin(π t/T) behind the end if it lasts less than half a period."""
     lasts = 0.4
-    found = vi.response_spectrum(vi.Record([1.5] * 5, lasts / 4), PERIODS, 0.0)
+    spectrum = vi.response_spectrum(vi.Record([1.5] * 5, lasts / 4), PERIODS, 0.0)
     grown = np.where(2.0 * lasts > PERIODS, 1.0, np.sin(math.pi * lasts / PERIODS))
-    np.testing.assert_allclose(found["spectral_acceleration"], 3.0 * grown, rtol=EXACT)
+    np.testing.assert_allclose(spectrum["spectral_acceleration"], 3.0 * grown, rtol=EXACT)
 
 
 def test_a_ramp_to_a_level() -> None:
     """Undamped: 1 + |sin(π t/T)| / (π t/T) times the level."""
     rises = 0.37
     values = np.concatenate([np.linspace(0.0, 3.0, 4), np.full(400, 3.0)])
-    found = vi.response_spectrum(vi.Record(values, rises / 3), PERIODS, 0.0)
+    spectrum = vi.response_spectrum(vi.Record(values, rises / 3), PERIODS, 0.0)
     ratio = math.pi * rises / PERIODS
     level = 3.0 * (1.0 + np.abs(np.sin(ratio)) / ratio)
-    np.testing.assert_allclose(found["pseudo_acceleration"], level, rtol=EXACT)
+    np.testing.assert_allclose(spectrum["pseudo_acceleration"], level, rtol=EXACT)
 
 
 def test_a_half_sine_is_approached_with_the_square_of_the_step() -> None:
@@ -177,8 +177,8 @@ def test_a_half_sine_is_approached_with_the_square_of_the_step() -> None:
     errors = []
     for count in (20, 40, 80, 160):
         record = vi.Record(np.sin(math.pi * np.arange(count + 1) / count), lasts / count)
-        found = float(vi.response_spectrum(record, period, 0.0)["pseudo_acceleration"])
-        errors.append(found / abs(turning) - 1.0)
+        largest = float(vi.response_spectrum(record, period, 0.0)["pseudo_acceleration"])
+        errors.append(largest / abs(turning) - 1.0)
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 2.0, atol=0.02)
     assert abs((4.0 * errors[3] - errors[2]) / 3.0) < 1e-7
 
@@ -198,11 +198,11 @@ def test_as_a_rig_without_stops(kind: str, period: float, ratio: float) -> None:
     """The general motion, its extremes by `totals`, in numbers that share no code with these."""
     record, omega = made(kind), math.tau / period
     rig = vi.Oscillator(3.0, vi.Isolator(3.0 * omega**2, 6.0 * ratio * omega))
-    found = vi.response_spectrum(record, period, ratio)
+    spectrum = vi.response_spectrum(record, period, ratio)
     totals = vi.totals(vi.simulate(vi.Rig(rig, record), tail=1.5 * period))
     for name, of in (("displacement", "displacement"), ("acceleration", "acceleration")):
         peak = max(abs(float(totals[f"{of}_max"])), abs(float(totals[f"{of}_min"])))
-        assert float(found[f"spectral_{name}"]) == pytest.approx(peak, rel=EXACT)
+        assert float(spectrum[f"spectral_{name}"]) == pytest.approx(peak, rel=EXACT)
 
 
 def split(record: vi.Record, parts: int) -> vi.Record:
@@ -251,14 +251,14 @@ def test_laws_of_scaling(name: str) -> None:
 def test_at_short_periods_it_tends_to_the_peak_of_the_ground() -> None:
     record = vi.Record(np.concatenate([[0.0], made("smooth").acceleration, [0.0]]), 0.02)
     periods = [0.0, 1e-9, 1e-7, 1e-5, 1e-3]
-    found = vi.response_spectrum(record, periods, [0.0, 0.05])
+    spectrum = vi.response_spectrum(record, periods, [0.0, 0.05])
     for name in ("spectral_acceleration", "pseudo_acceleration"):
-        ratio = found[name].values / record.peak
+        ratio = spectrum[name].values / record.peak
         assert (ratio[:, 0] == 1.0).all()
         np.testing.assert_allclose(ratio[:, 1], 1.0, atol=1e-6)
         assert (np.diff(np.abs(ratio - 1.0)[:, 1:], axis=1) > -1e-9).all()
     for name in ("spectral_displacement", "spectral_velocity", "pseudo_velocity"):
-        assert (found[name].values[:, 0] == 0.0).all()
+        assert (spectrum[name].values[:, 0] == 0.0).all()
 
 
 def test_at_long_periods_it_tends_to_the_displacement_of_the_ground() -> None:
@@ -268,7 +268,7 @@ def test_at_long_periods_it_tends_to_the_displacement_of_the_ground() -> None:
     dt = time[1]
     velocity = np.concatenate([[0.0], np.cumsum(0.5 * dt * (acceleration[1:] + acceleration[:-1]))])
     moved = np.concatenate([[0.0], np.cumsum(0.5 * dt * (velocity[1:] + velocity[:-1]))])
-    found = vi.response_spectrum(record, 1e6, 0.05)
-    assert float(found["spectral_velocity"]) == pytest.approx(np.abs(velocity).max(), rel=1e-3)
+    spectrum = vi.response_spectrum(record, 1e6, 0.05)
+    assert float(spectrum["spectral_velocity"]) == pytest.approx(np.abs(velocity).max(), rel=1e-3)
     behind = abs(velocity[-1]) * 1e6 / math.tau  # what is left drifts for a quarter of a period
-    assert float(found["spectral_displacement"]) <= np.abs(moved).max() + 1.1 * behind
+    assert float(spectrum["spectral_displacement"]) <= np.abs(moved).max() + 1.1 * behind

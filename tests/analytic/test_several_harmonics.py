@@ -104,16 +104,16 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
         0.45, sizes, kind["phases"], 0.25 + (of != "acceleration") * math.pi, of=of
     )
     rig = between(stop)
-    found = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=16)
-    assert len(found.attrs["contacts"]) >= 2
-    state = found["final_state"].values
+    orbit = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=16)
+    assert len(orbit.attrs["contacts"]) >= 2
+    state = orbit["final_state"].values
     assert not state[5:7].any()
     expected = differences(rig, shaken, state, 1e-7)
     np.testing.assert_allclose(
-        found["monodromy"].values[:, :2], expected, atol=1e-6 * np.abs(expected).max()
+        orbit["monodromy"].values[:, :2], expected, atol=1e-6 * np.abs(expected).max()
     )
-    shown = found["multiplier_real"].values + 1j * found["multiplier_imag"].values
-    own = np.linalg.eigvals(found["monodromy"].values)
+    shown = orbit["multiplier_real"].values + 1j * orbit["multiplier_imag"].values
+    own = np.linalg.eigvals(orbit["monodromy"].values)
     np.testing.assert_allclose(np.sort(abs(own)), np.sort(abs(shown)), atol=1e-9 * abs(shown).max())
     assert abs(shown).max() > 1e-3
 
@@ -121,22 +121,22 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
 @pytest.mark.parametrize("stop", [DULL, WALL])
 def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
     def half_a_period_later(shaken, rig) -> tuple[bool, float]:
-        found = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=64)
-        u = found["displacement"].values[:64]
-        return bool(found["antisymmetric"]), float(np.abs(u + np.roll(u, 32)).max())
+        orbit = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=64)
+        u = orbit["displacement"].values[:64]
+        return bool(orbit["antisymmetric"]), float(np.abs(u + np.roll(u, 32)).max())
 
     odd, even = (vi.Periodic(0.45, **kind, phase=0.25) for kind in (ODD, EVEN))
     assert (odd.half_wave, even.half_wave) == (True, False)
-    told, miss = half_a_period_later(odd, between(stop))
-    assert told
+    is_mirrored, miss = half_a_period_later(odd, between(stop))
+    assert is_mirrored
     assert miss < 1e-12
     for shaken, rig in (
         (even, between(stop)),
         (odd, between(stop, stop.replace(gap=0.14))),
         (odd, between(stop, force=0.3)),
     ):
-        told, miss = half_a_period_later(shaken, rig)
-        assert not told
+        is_mirrored, miss = half_a_period_later(shaken, rig)
+        assert not is_mirrored
         assert miss > 1e-3
 
 
@@ -159,8 +159,8 @@ def test_a_branch_of_orbits(kind: dict) -> None:
         assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=5e-2)
         if not section[5:7].any():
             own = np.linalg.eigvals(differences(rig, here, section, 1e-7)[:2])
-            found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
-            assert abs(max(abs(own)) - max(abs(found))) < 1e-5 * max(abs(own))
+            multipliers = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
+            assert abs(max(abs(own)) - max(abs(multipliers))) < 1e-5 * max(abs(own))
             checked += 1
     assert checked >= 5
 
@@ -168,11 +168,11 @@ def test_a_branch_of_orbits(kind: dict) -> None:
 def test_the_reference_is_found_once_along_a_branch(monkeypatch) -> None:
     """Frequency, amplitude and stops do not matter to the largest free flight's shape."""
     asked = []
-    found = analytic_free_response.harmonics
+    harmonics = analytic_free_response.harmonics
     monkeypatch.setattr(
         analytic_free_response,
         "harmonics",
-        lambda *given: asked.append(len(given[1])) or found(*given),
+        lambda *arguments: asked.append(len(arguments[1])) or harmonics(*arguments),
     )
     rig, shaken = between(DULL), vi.Periodic(0.45, (1.5, 0.61, 0.9))
     analytic_free_response.reference_excursions(vi.Rig(rig, shaken))

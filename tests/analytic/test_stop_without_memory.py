@@ -39,15 +39,15 @@ def integrated() -> tuple[float, float]:
     face.terminal = release.terminal = True
     t, y, largest = 0.0, np.zeros(2), 0.0
     while t < CYCLES * PERIOD:
-        found = solve_ivp(
+        solution = solve_ivp(
             rates, (t, CYCLES * PERIOD), y, "DOP853", events=(face, release, turn),
             rtol=1e-12, atol=1e-14, max_step=0.05,
         )  # fmt: skip
-        t, y = found.t[-1], found.y[:, -1]
-        for at, state in zip(found.t_events[2], found.y_events[2], strict=True):
+        t, y = solution.t[-1], solution.y[:, -1]
+        for at, state in zip(solution.t_events[2], solution.y_events[2], strict=True):
             if at >= (CYCLES - 1) * PERIOD:
                 largest = max(largest, abs(float(state[0])))
-        if found.status == 1:  # to the other side of the event
+        if solution.status == 1:  # to the other side of the event
             step = 1e-13
             y = y + step * np.array(rates(t, y))
             t += step

@@ -142,8 +142,8 @@ def test_a_rest_may_end_at_a_section(e: float) -> None:
         assert abs(float(u - exact[0])) <= TOLERANCE
         assert abs(float(v - exact[1])) <= TOLERANCE
 
-    def hits(found) -> list[str]:
-        return [e.kind for e in found if not ("impact" in e.kind and abs(e.v) < SLOW * speed)]
+    def hits(log) -> list[str]:
+        return [e.kind for e in log if not ("impact" in e.kind and abs(e.v) < SLOW * speed)]
 
     # The last rest may end just before or just behind the end of the run.
     assert hits(events(data))[: 3 * (CYCLES - 1)] == hits(run.events)[: 3 * (CYCLES - 1)]

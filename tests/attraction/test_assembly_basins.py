@@ -39,23 +39,23 @@ def test_basins_of_a_frame_lead_where_steady_does() -> None:
     frequency = float(0.5 * (folds[0] + folds[1]))
     start = vi.State(velocity={"base": 0.05})
     plane = {"displacement.roof": (-0.08, 0.08), "velocity.roof": (-0.6, 0.6)}
-    found = vi.basins(rig, plane=plane, start=start, frequency=frequency, nodes=(9, 7))
-    assert found.sizes["attractor"] >= 2
-    assert (found["basin"] >= 0).all()
+    coarse = vi.basins(rig, plane=plane, start=start, frequency=frequency, nodes=(9, 7))
+    assert coarse.sizes["attractor"] >= 2
+    assert (coarse["basin"] >= 0).all()
     for i, j in ((0, 0), (3, 4), (6, 8)):
-        here = found["basin"][i, j]
+        here = coarse["basin"][i, j]
         state = vi.State(
             {"roof": float(here["displacement.roof"])},
             {"roof": float(here["velocity.roof"]), "base": 0.05},
         )
         steady = vi.steady(rig, start=state, frequency=frequency)
-        motion = found.isel(attractor=int(here))
+        motion = coarse.isel(attractor=int(here))
         np.testing.assert_allclose(
             steady["displacement_excursion"], motion["displacement_excursion"], rtol=1e-6
         )
     # Refined near borders, the nodes of the first grid are the same.
     finer = vi.basins(rig, plane=plane, start=start, frequency=frequency, nodes=(9, 7), refine=1)
-    np.testing.assert_array_equal(finer["basin"].values[::2, ::2], found["basin"].values)
+    np.testing.assert_array_equal(finer["basin"].values[::2, ::2], coarse["basin"].values)
 
 
 def test_wrong_planes() -> None:

@@ -74,8 +74,8 @@ def test_shares_lie_within_those_of_states_at_random():
 def vi_interval(hits: int, total: int) -> tuple[float, float]:
     from scipy.stats import binomtest
 
-    found = binomtest(int(hits), total).proportion_ci(0.99)
-    return found.low, found.high
+    interval = binomtest(int(hits), total).proportion_ci(0.99)
+    return interval.low, interval.high
 
 
 @pytest.mark.full
@@ -142,9 +142,9 @@ def test_bumpers_that_remember():
     data = vi.basins(vi.Rig(rig, excitation), *WINDOW, nodes=4, deformation={"right": "2 mm"})
     for v in data["velocity"].values:
         for u in data["displacement"].values:
-            given = max(u - 0.005, 0.002)
+            depth = max(u - 0.005, 0.002)
             alone = vi.steady(
-                vi.Rig(rig, excitation), vi.State(u, v, deformation={"right": given}), 1
+                vi.Rig(rig, excitation), vi.State(u, v, deformation={"right": depth}), 1
             )
             number = int(data["basin"].sel(displacement=u, velocity=v))
             size = float(data["displacement_excursion"][number])

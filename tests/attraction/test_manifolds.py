@@ -32,21 +32,21 @@ WINDOW = (-0.011, 0.011), (-0.104, 0.104)
 SIDES = np.ptp(np.array(WINDOW), axis=1)
 
 
-TOLD: list[tuple[int, int | None]] = []
-"""The progress of `found`."""
+STEPS: list[tuple[int, int | None]] = []
+"""Of `dataset`: done and total."""
 
 
 @cache
-def found() -> xr.Dataset:
+def dataset() -> xr.Dataset:
     def tell(done: int, total: int | None) -> None:
-        TOLD.append((done, total))
+        STEPS.append((done, total))
 
     return vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), None, *WINDOW, progress=tell)
 
 
 def test_progress_counts_states_then_places_then_parts_of_curves():
-    curves = found().sizes["curve"]
-    ends = [one for one, later in zip(TOLD, [*TOLD[1:], (0, 0)], strict=True) if later < one]
+    curves = dataset().sizes["curve"]
+    ends = [one for one, later in zip(STEPS, [*STEPS[1:], (0, 0)], strict=True) if later < one]
     states, places, parts = ends[-3:]
     assert states == (1600, 1600)
     assert places == (6, 6)
@@ -60,8 +60,8 @@ def curve(data: xr.Dataset, number: int, scale: object = SIDES) -> np.ndarray:
 
 
 def curves(kind: str) -> list[np.ndarray]:
-    numbers = np.flatnonzero(found()["curve_kind"].values == kind)
-    return [curve(found(), int(number)) for number in numbers]
+    numbers = np.flatnonzero(dataset()["curve_kind"].values == kind)
+    return [curve(dataset(), int(number)) for number in numbers]
 
 
 def inside(points: np.ndarray) -> np.ndarray:
@@ -81,7 +81,7 @@ def basin_of(points: np.ndarray) -> np.ndarray:
 
 
 def test_what_is_found():
-    data = found()
+    data = dataset()
     for name in data.variables:
         assert data[name].attrs["units"] == VARIABLES[str(name)].units
     assert list(data["curve_kind"].values) == ["stable", "stable", "unstable", "unstable"]
@@ -98,7 +98,7 @@ def test_what_is_found():
 
 def test_neighbours_are_as_close_as_asked_for():
     for number in range(4):
-        points = curve(found(), number)
+        points = curve(dataset(), number)
         steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
         in_view = (np.abs(points[1:]) <= 0.5).all(axis=1)
         assert steps[in_view].max() <= 0.01 * (1.0 + 1e-9)
@@ -154,7 +154,7 @@ def test_unstable_curves_end_on_the_motions():
     away = np.linalg.norm(ends[:, None] - motions[None], axis=2)
     assert away.min(axis=1).max() < 1e-3
     assert set(away.argmin(axis=1)) == {0, 1}
-    assert list(found()["curve_ended"].values[2:]) == ["the curve ends at a steady motion"] * 2
+    assert list(dataset()["curve_ended"].values[2:]) == ["the curve ends at a steady motion"] * 2
 
 
 @pytest.mark.parametrize("kind", ["stable", "unstable"])
@@ -172,7 +172,8 @@ def test_the_map_takes_a_curve_into_itself(kind):
 
 
 def test_states_on_a_stable_curve_come_to_the_saddle():
-    saddle = np.array([found()["saddle_displacement"][0], found()["saddle_velocity"][0]]) / SIDES
+    data = dataset()
+    saddle = np.array([data["saddle_displacement"][0], data["saddle_velocity"][0]]) / SIDES
     for points in curves("stable"):
         nearest = np.full(len(picked := inside(points)), np.inf)
         states = follow(STAGE, begun(picked), None, NO_TRAPS, 0).states
@@ -189,7 +190,7 @@ def test_given_saddles_are_those_that_borders_lead_to():
     for saddles in (first, orbit, [orbit]):
         data = vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), saddles, *WINDOW, longest=0.5)
         assert float(data["saddle_velocity"][0]) == pytest.approx(
-            float(found()["saddle_velocity"][0]), rel=1e-7
+            float(dataset()["saddle_velocity"][0]), rel=1e-7
         )
         # The side of a direction is told by nothing.
         pieces = [curve(data, number)[-1] for number in (0, 1)]

@@ -46,5 +46,5 @@ def test_few_bytes_a_node_travel():
     region = Region(STAGE, nodes, np.empty((0, 8)), NO_TRAPS, 1)
     there = pickle.loads(pickle.dumps(region))
     assert len(pickle.dumps(region)) < 5 * number
-    found = follow_region(there, np.zeros(2, dtype=np.int64))
-    assert len(found.owner) == number
+    labels = follow_region(there, np.zeros(2, dtype=np.int64))
+    assert len(labels.owner) == number

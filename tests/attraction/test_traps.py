@@ -96,15 +96,15 @@ def test_motions_of_long_periods_have_a_trap_a_point():
     points = np.zeros((sample(400, 40), 5))
     generator = np.random.default_rng(3)
     points[:, :2] = generator.uniform([-1.0, -1.2], [0.0, 1.2], (len(points), 2))
-    found = search.label(points)
-    assert (found.owner >= 0).all()
+    labels = search.label(points)
+    assert (labels.owner >= 0).all()
     assert {8, 12} <= {one.settled_motion.period for one in search.known}
     for one in search.known:
         assert len(one.traps) == one.settled_motion.period
     # The same without any trap.
     ends = follow(search.stage, points, None, NO_TRAPS, 3000).states[:, 2:4]
     for number, one in enumerate(search.known):
-        mine = ends[found.owner == number]
+        mine = ends[labels.owner == number]
         away = np.abs(mine[:, None] - one.points[None, :, :2]).max(axis=2).min(axis=1)
         assert (away < 1e-6).all()
 

@@ -27,10 +27,10 @@ def no_pictures(blank_pictures):
 
 
 @pytest.fixture(scope="module")
-def told(request) -> Callable[..., tuple[int, str, str]]:
+def run_in(request) -> Callable[..., tuple[int, str, str]]:
     """Run the module's ``COMMAND`` in a folder; return exit code, stdout and stderr."""
 
-    def told(folder: Path, *words: str) -> tuple[int, str, str]:
+    def run_in(folder: Path, *words: str) -> tuple[int, str, str]:
         out, errors = io.StringIO(), io.StringIO()
         with (
             contextlib.chdir(folder),
@@ -42,13 +42,13 @@ def told(request) -> Callable[..., tuple[int, str, str]]:
         lines = errors.getvalue().splitlines(keepends=True)
         return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
 
-    return told
+    return run_in
 
 
 @pytest.fixture
-def run(tmp_path, told):
+def run(tmp_path, run_in):
     """Run the module's ``COMMAND`` in an empty folder."""
-    return lambda *words: told(tmp_path, *words)
+    return lambda *words: run_in(tmp_path, *words)
 
 
 @pytest.fixture

@@ -103,7 +103,7 @@ def files(folder: Path) -> set[str]:
 
 
 def test_simulate(run, tmp_path):
-    code, told, _ = run("simulate", "neighbours", "--animation", "html")
+    code, out, _ = run("simulate", "neighbours", "--animation", "html")
     assert code == 0
     stem = "neighbours-1.9Hz"
     pictures = ("history", "accelerations", "forces")
@@ -115,35 +115,35 @@ def test_simulate(run, tmp_path):
     motion = vi.simulate(rig(), 5, frequency=1.9)
     data = vi.load(tmp_path / f"out/{stem}-history.nc")
     np.testing.assert_array_equal(data["displacement"], motion["displacement"])
-    rows = [line.split() for line in told.splitlines()]
-    found = vi.totals(motion)
+    rows = [line.split() for line in out.splitlines()]
+    totals = vi.totals(motion)
     for mass in ("west", "east"):
         shown = next(row for row in rows if row[:1] == [mass])
         assert float(shown[1]) == pytest.approx(
-            1e3 * float(found["displacement_max"].sel(mass=mass)), rel=1e-3
+            1e3 * float(totals["displacement_max"].sel(mass=mass)), rel=1e-3
         )
         assert float(shown[2]) == pytest.approx(
-            -1e3 * float(found["displacement_min"].sel(mass=mass)), rel=1e-3
+            -1e3 * float(totals["displacement_min"].sel(mass=mass)), rel=1e-3
         )
-    assert "frame_west        K = 30 MN/m, C = 200 kN s/m" in told
-    assert "natural frequencies    1.949, 3.02 Hz" in told
+    assert "frame_west        K = 30 MN/m, C = 200 kN s/m" in out
+    assert "natural frequencies    1.949, 3.02 Hz" in out
 
 
 def test_facts_of_a_motion_are_exact(run):
-    code, told, _ = run("simulate", "neighbours", "--json")
+    code, out, _ = run("simulate", "neighbours", "--json")
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     motion = vi.simulate(rig(), 5, frequency=1.9)
-    found, log = vi.totals(motion), vi.contacts(motion)
+    totals, log = vi.totals(motion), vi.contacts(motion)
     largest = facts["largest"]
     assert largest["masses"]["west"]["peak_acceleration"] == float(
-        found["peak_acceleration"].sel(mass="west")
+        totals["peak_acceleration"].sel(mass="west")
     )
     assert largest["links"]["frame_east"]["peak_drift"] == float(
-        found["peak_drift"].sel(link="frame_east")
+        totals["peak_drift"].sel(link="frame_east")
     )
     pounding, wall = largest["stops"]["pounding"], largest["stops"]["wall"]
-    assert pounding["peak_force"] == float(found["peak_force"].sel(stop="pounding"))
+    assert pounding["peak_force"] == float(totals["peak_force"].sel(stop="pounding"))
     mine = log["contact_stop"].values == "wall"
     assert wall == {
         "contacts": int(mine.sum()),
@@ -155,14 +155,14 @@ def test_facts_of_a_motion_are_exact(run):
 
 
 def test_sweep(run, tmp_path):
-    code, told, _ = run("sweep", "neighbours", "--json")
+    code, out, _ = run("sweep", "neighbours", "--json")
     assert code == 0
     assert files(tmp_path) == {
         "neighbours-sweep.nc",
         "neighbours-sweep.txt",
         *(f"neighbours-sweep{name}.png" for name in ("", "-accelerations", "-forces")),
     }
-    facts = json.loads(told)
+    facts = json.loads(out)
     data = vi.load(tmp_path / "out/neighbours-sweep.nc")
     direct = vi.sweep(rig(), np.round(np.arange(1.5, 2.51, 0.1), 10))
     np.testing.assert_array_equal(data["peak_displacement"], direct["peak_displacement"])
@@ -195,31 +195,31 @@ def test_sweep(run, tmp_path):
 
 def test_branch(run, tmp_path):
     words = ("branch", "neighbours", "--vary", "frequency=1.5Hz:2Hz", "--set", "stops.wall=none")
-    code, told, _ = run(*words)
+    code, out, _ = run(*words)
     assert code == 0
     stem = "neighbours-no-stop-wall-frequency-branches"
     assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
     data = vi.load(tmp_path / f"out/{stem}.nc")
     assert float(data["frequency"].min()) == 1.5
     assert float(data["frequency"].max()) == 2.0
-    assert "grazing" in told
-    assert "η_d" not in told
+    assert "grazing" in out
+    assert "η_d" not in out
 
 
 def test_jumps_of_a_sweep(run):
     words = ("sweep", "neighbours", "--to", "2.7Hz", "--set", "stops.wall=none")
-    code, told, _ = run(*words)
+    code, out, _ = run(*words)
     assert code == 0
     data = vi.sweep(rig_without_wall(), [1.5 + k / 10 for k in range(13)])
     west = data["peak_displacement"].sel(mass="west")
-    rows = [line.split() for line in told.splitlines()]
+    rows = [line.split() for line in out.splitlines()]
     (down,) = [row for row in rows if row[:2] == ["forward", "downward"]]
     (up,) = [row for row in rows if row[:2] == ["backward", "upward"]]
     assert down[2:6] == ["2.4", "and", "2.5", "west"]
     assert up[2:6] == ["2.4", "and", "2.3", "west"]
     ends = west.sel(direction="forward").sel(frequency=[2.4, 2.5], method="nearest").values
     np.testing.assert_allclose([float(down[6]), float(down[8])], 1e3 * ends, rtol=1e-3)
-    assert "vibroimpact branch locates the folds" in told
+    assert "vibroimpact branch locates the folds" in out
     facts = json.loads(run(*words, "--json")[1])["jumps"]
     assert [one["direction"] for one in facts] == ["forward", "backward"]
     assert "Jumps: none" in run(*words[:2], "--to", "1.9Hz", *words[4:])[1]
@@ -229,9 +229,9 @@ def test_a_step_of_a_smooth_curve_is_no_jump(run):
     assert run("init", "frame.toml", "--kind", "frame")[0] == 0
     for step in ("0.02Hz", "0.01Hz"):
         assert "Jumps: none" in run("sweep", "frame.toml", "--step", step, "--to", "0.34Hz")[1]
-    told = run("sweep", "frame.toml")[1]
-    assert "refine --step\n  forward: 0.74 to 0.76 Hz" in told
-    assert "0.84 and 0.86" in told
+    out = run("sweep", "frame.toml")[1]
+    assert "refine --step\n  forward: 0.74 to 0.76 Hz" in out
+    assert "0.84 and 0.86" in out
 
 
 def rig_without_wall() -> vi.Rig:
@@ -248,9 +248,9 @@ def test_a_branch_along_a_path(run, tmp_path):
 
 
 def test_motion(run, tmp_path):
-    code, told, _ = run("motion", "neighbours", "--json", "--set", "stops.wall=none")
+    code, out, _ = run("motion", "neighbours", "--json", "--set", "stops.wall=none")
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     stops = {"pounding": rig().system.stops["pounding"]}
     steady = vi.steady(vi.Rig(rig().system.replace(stops=stops), "0.1 g"), frequency=1.9)
     assert facts["motion"] == str(steady["motion"].values) == "periodic"
@@ -270,7 +270,7 @@ def test_motion(run, tmp_path):
 
 def test_bifurcation(run, tmp_path):
     words = ("--vary", "frequency=2.3Hz:2.5Hz:5", "--set", "stops.wall=none", "--branches")
-    code, told, _ = run("bifurcation", "neighbours", *words)
+    code, out, _ = run("bifurcation", "neighbours", *words)
     assert code == 0
     stem = "neighbours-no-stop-wall-frequency-diagram"
     assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
@@ -281,21 +281,21 @@ def test_bifurcation(run, tmp_path):
     np.testing.assert_array_equal(data["section_displacement"], direct["section_displacement"])
     # Two motions coexist, so the sweeps differ between the folds.
     assert not np.array_equal(*data["displacement_max"].sel(mass="west").values)
-    rows = [line.split() for line in told.splitlines()]
+    rows = [line.split() for line in out.splitlines()]
     folds = [float(row[1]) for row in rows if row[:1] == ["fold"]]
     branch = vi.branch(alone, vary={"frequency": (2.3, 2.5)}, frequency=2.3)
-    found = branch["bifurcation_value"].values[branch["bifurcation_kind"].values == "fold"]
-    np.testing.assert_allclose(folds, np.sort(found), rtol=1e-9)
+    exact = branch["bifurcation_value"].values[branch["bifurcation_kind"].values == "fold"]
+    np.testing.assert_allclose(folds, np.sort(exact), rtol=1e-9)
     assert len(folds) == 2
 
 
 def test_curve(run, tmp_path):
     vary = ("--vary", "frequency=2.3Hz:2.5Hz", "--vary", "stops.pounding.gap=18mm:22mm")
-    code, told, _ = run("curve", "neighbours", *vary, "--set", "stops.wall=none", "--json")
+    code, out, _ = run("curve", "neighbours", *vary, "--set", "stops.wall=none", "--json")
     assert code == 0
     stem = "neighbours-no-stop-wall-fold-frequency-stops-pounding-gap"
     assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
-    (one,) = json.loads(told)["curves"]  # both folds of the branch lie on one curve
+    (one,) = json.loads(out)["curves"]  # both folds of the branch lie on one curve
     assert one["points"] > 3
     assert {one["ended_low"], one["ended_high"]} & {
         f"the range of stops.pounding.gap ends at {end} mm" for end in (18, 22)
@@ -304,7 +304,7 @@ def test_curve(run, tmp_path):
 
 def test_basins(run, tmp_path):
     words = ("--frequency", "2.4Hz", "--set", "stops.wall=none", "--start", "velocity.east=0.1m/s")
-    code, told, _ = run(*BASINS, *words, "--nodes", "9")
+    code, out, _ = run(*BASINS, *words, "--nodes", "9")
     assert code == 0
     stem = "neighbours-no-stop-wall-2.4Hz-basins"
     assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
@@ -318,10 +318,10 @@ def test_basins(run, tmp_path):
         nodes=9,
     )
     np.testing.assert_array_equal(data["basin"], direct["basin"])
-    shares = [line.split()[4] for line in told.splitlines() if line[:2] in ("1 ", "2 ")]
+    shares = [line.split()[4] for line in out.splitlines() if line[:2] in ("1 ", "2 ")]
     assert shares == [f"{one:.1%}" for one in direct["share"].values]
     largest = direct["displacement_excursion"].max("mass").values
-    excursions = [float(line.split()[3]) for line in told.splitlines() if line[:2] in ("1 ", "2 ")]
+    excursions = [float(line.split()[3]) for line in out.splitlines() if line[:2] in ("1 ", "2 ")]
     np.testing.assert_allclose(excursions, 1e3 * largest, rtol=1e-3)
 
 
@@ -331,7 +331,7 @@ def test_earthquake(run, tmp_path):
     rows = "".join(f"{t:.2f},{a:.6f}\n" for t, a in zip(time, ground, strict=True))
     path = tmp_path / "quake.csv"
     path.write_text(f"time (s),acceleration (m/s^2)\n{rows}", encoding="utf-8")
-    code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
+    code, out, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
     stem = "neighbours-quake-earthquake"
     pictures = ("displacements", "accelerations", "forces", "spectra")
@@ -348,7 +348,7 @@ def test_earthquake(run, tmp_path):
     for mass in ("west", "east"):
         exact = float(response["peak_displacement"].sel(mass=mass))
         assert float(row[f"peak_displacement_{mass}"]) == exact
-        (one,) = json.loads(told)["records"]
+        (one,) = json.loads(out)["records"]
         shown = one["largest"]["masses"][mass]["peak_displacement"]
         assert shown == pytest.approx(exact, rel=1e-9)
     assert float(row["peak_force_pounding"]) == float(response["peak_force"].sel(stop="pounding"))
@@ -393,14 +393,14 @@ def test_an_impact_damper_starts_from_a_state(run, tmp_path):
     words = ("motion", "sink.toml", "--start", "velocity.ball=14", "--start", "velocity.host=3")
     code, _, errors = run(*words)
     assert (code, errors) == (0, "")
-    found = vi.load(tmp_path / "out/sink-omega1-motion.nc")
-    assert float(abs(found["velocity"].sel(mass="ball")).max()) == pytest.approx(speed, rel=1e-6)
+    steady = vi.load(tmp_path / "out/sink-omega1-motion.nc")
+    assert float(abs(steady["velocity"].sel(mass="ball")).max()) == pytest.approx(speed, rel=1e-6)
     code, _, errors = run("simulate", "sink.toml", *words[2:], "--cycles", "1")
     assert (code, errors) == (0, "")
     motion = vi.load(tmp_path / "out/sink-omega1-history.nc")
     assert float(motion["velocity"].sel(mass="ball")[0]) == 14.0
     names = [f"{part}.{mass}" for part in ("displacement", "velocity") for mass in ("host", "ball")]
-    end = found["final_state"]
+    end = steady["final_state"]
     near = ",".join(f"{name}={float(end.sel(component=name)):.3g}" for name in names)
     varied = ("--vary", "amplitude=0.9:1.1")
     code, out, errors = run("branch", "sink.toml", "--start", near, *varied)
@@ -426,10 +426,10 @@ def test_design(run, tmp_path):
         assert (tmp_path / f"out/neighbours-{name}").exists()
     code, out, errors = run(*words, "--json", "--limit", "peak-force.pounding", "1N")
     assert (code, errors) == (0, "")
-    told = json.loads(out)
-    assert told["required_gap"]["pounding"] == pytest.approx(1e-3 * needed)
+    facts = json.loads(out)
+    assert facts["required_gap"]["pounding"] == pytest.approx(1e-3 * needed)
     hit = chart["peak_force"].sel(stop="pounding") > 1.0
-    assert told["designs_within_limits"] == int((~hit).sum())
+    assert facts["designs_within_limits"] == int((~hit).sum())
     code, _, errors = run(*words, "--best")
     assert (code, errors.count("\n")) == (2, 1)
     assert "--best: set, but" in errors
@@ -451,12 +451,12 @@ def test_ensemble(run, tmp_path):
     assert any(name.endswith("-ensemble-forces.png") for name in written)
     code, out, errors = run(*words, "--sensitivity", "--set", "stops.wall=none", "--json")
     assert (code, errors) == (0, "")
-    told = json.loads(out)
-    assert set(told["sensitivity"]) == {"peak_acceleration", "peak_displacement", "peak_force"}
-    path = tmp_path / "out" / Path(told["files"]["data"]).name
+    facts = json.loads(out)
+    assert set(facts["sensitivity"]) == {"peak_acceleration", "peak_displacement", "peak_force"}
+    path = tmp_path / "out" / Path(facts["files"]["data"]).name
     data = vi.load(path)
     exact = data["peak_displacement"].sel(mass="west").max(("direction", "frequency"))
-    assert told["peaks"]["peak_displacement.west"][1] == pytest.approx(float(exact.median()))
+    assert facts["peaks"]["peak_displacement.west"][1] == pytest.approx(float(exact.median()))
 
 
 @pytest.mark.parametrize(
@@ -530,6 +530,6 @@ def test_a_force_stays_on_its_mass(run, tmp_path):
     path.write_text(text, encoding="utf-8")
     what = subject(str(path), RigOptions(amplitude="20kN"), masses=True)
     assert (what.repeated.amplitude, what.repeated.on) == (20e3, "west")
-    code, told, _ = run("simulate", "pushed")
+    code, out, _ = run("simulate", "pushed")
     assert code == 0
-    assert "force on west" in told
+    assert "force on west" in out

@@ -35,12 +35,12 @@ def test_json_and_another_parameter(run, tmp_path):
     window = ("--displacement", "-12mm:12mm", "--velocity", "-0.1:0.1", "--frequency", "0.7Hz")
     code, out, _ = run("B3-10mm-A3", *words, *window, "--samples", "40", "--seed", "3", "--json")
     assert code == 0
-    told = json.loads(out)
-    data = vi.load(tmp_path / told["files"]["data"])
+    facts = json.loads(out)
+    data = vi.load(tmp_path / facts["files"]["data"])
     np.testing.assert_allclose(data["gap"], [0.004, 0.006])
-    assert told["parameter"] == "gap"
+    assert facts["parameter"] == "gap"
     assert json.loads(data.attrs["parameters"])["seed"] == 3
-    for number, one in enumerate(told["motions"]):
+    for number, one in enumerate(facts["motions"]):
         here = data["motion"].values[:, number] != ""
         assert one["share"] == list(data["share"].values[here, number])
         assert one["values"] == list(data["gap"].values[here])

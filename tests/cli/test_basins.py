@@ -31,13 +31,13 @@ def test_json_and_options(run, tmp_path):
     words = ("--displacement", "-12mm:12mm", "--velocity", "-0.1:0.1", "--phase", "90deg")
     code, out, _ = run(*WORDS[:3], "--nodes", "8", "--refine", "1", *words, "--json")
     assert code == 0
-    told = json.loads(out)
-    data = vi.load(tmp_path / told["files"]["data"])
+    facts = json.loads(out)
+    data = vi.load(tmp_path / facts["files"]["data"])
     np.testing.assert_allclose(data["displacement"], np.linspace(-0.012, 0.012, 15))
     assert json.loads(data.attrs["parameters"])["phase"] == pytest.approx(np.pi / 2.0)
-    assert told["states"] == 225
-    assert [one["share"] for one in told["motions"]] == pytest.approx(list(data["share"].values))
-    assert "refined 1 times near borders, to 15 × 15" in told["lattice"]
+    assert facts["states"] == 225
+    assert [one["share"] for one in facts["motions"]] == pytest.approx(list(data["share"].values))
+    assert "refined 1 times near borders, to 15 × 15" in facts["lattice"]
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,8 @@ COMMAND = "bifurcation"
 GAPS = ("B3-10mm-A3", "--vary", "gap=4.8mm:5mm:5")
 
 
-def test_over_the_gap(tmp_path, told):
-    code, out, errors = told(
+def test_over_the_gap(tmp_path, run_in):
+    code, out, errors = run_in(
         tmp_path, *GAPS, *("--frequency", "1.12Hz", "--random", "1", "--branches")
     )
     assert (code, errors) == (0, "")
@@ -28,8 +28,8 @@ def test_over_the_gap(tmp_path, told):
     (base,) = [line for line in lines if line.startswith("base ")]
     assert base.endswith("at 1.12 Hz")
     ranges = [line.split() for line in lines]
-    found = ["periodic,", "period", "2", "4R", "2L", "4.85", "to", "4.9", "2"]
-    assert found in [words[:9] for words in ranges]
+    expected = ["periodic,", "period", "2", "4R", "2L", "4.85", "to", "4.9", "2"]
+    assert expected in [words[:9] for words in ranges]
     data = vi.load(tmp_path / "out" / "B3-10mm-A3-1.12Hz-gap-diagram.nc")
     case = vi.laboratory.case("B3-10mm-A3")
     same = vi.bifurcation_diagram(case, {"gap": (4.8e-3, 5e-3)}, 5, frequency=1.12, random=1)
@@ -38,31 +38,31 @@ def test_over_the_gap(tmp_path, told):
         np.testing.assert_array_equal(data[name], same[name])
 
 
-def test_the_frequency_stands_in_title_and_names_unless_it_is_varied(tmp_path, told):
+def test_the_frequency_stands_in_title_and_names_unless_it_is_varied(tmp_path, run_in):
     few = ("B2-G1-A3", "--direction", "up", "--figure", "svg", "--vary")
-    code, out, _ = told(tmp_path, *few, "gap=7mm:8mm:2", "--frequency", "2.2Hz", "--json")
+    code, out, _ = run_in(tmp_path, *few, "gap=7mm:8mm:2", "--frequency", "2.2Hz", "--json")
     printed = json.loads(out)
     assert (code, printed["frequency"]) == (0, 2.2)
     assert printed["files"]["figure"] == "out/B2-G1-A3-2.2Hz-gap-diagram.svg"
     assert "B2-G1-A3, 2.2 Hz" in (tmp_path / printed["files"]["figure"]).read_text()
-    printed = json.loads(told(tmp_path, *few, "frequency=2Hz:2.1Hz:2", "--json")[1])
+    printed = json.loads(run_in(tmp_path, *few, "frequency=2Hz:2.1Hz:2", "--json")[1])
     assert "frequency" not in printed
     assert printed["files"]["figure"] == "out/B2-G1-A3-frequency-diagram.svg"
 
 
-def test_contacts_part_ranges_and_their_absence_is_told(tmp_path, told):
+def test_contacts_part_ranges_and_their_absence_is_told(tmp_path, run_in):
     few = ("B2-G1-A3", "--direction", "down", "--vary", "frequency=1.6Hz:2.8Hz:7")
-    _, out, _ = told(tmp_path, *few)
+    _, out, _ = run_in(tmp_path, *few)
     rows = [line.split()[3:] for line in out.splitlines() if line.startswith("periodic")]
     assert [row[:-2] for row in rows] == [
         ["1R", "1L", "1.6"],
         ["none", "1.8", "to", "2.8"],
     ]
     assert "touches a stop" not in out
-    _, out, _ = told(tmp_path, *few[:4], "frequency=2.8Hz:2.9Hz:2")
+    _, out, _ = run_in(tmp_path, *few[:4], "frequency=2.8Hz:2.9Hz:2")
     assert "Note: none of these motions touches a stop. Motions that do may coexist" in out
-    found = json.loads(told(tmp_path, *few, "--json")[1])["starts"]["down"]
-    assert [one["contacts"] for one in found] == [{"right": n, "left": n} for n in (1, 0)]
+    ranges = json.loads(run_in(tmp_path, *few, "--json")[1])["starts"]["down"]
+    assert [one["contacts"] for one in ranges] == [{"right": n, "left": n} for n in (1, 0)]
 
 
 def test_no_undecided_motion_is_hidden():
@@ -90,8 +90,8 @@ def test_no_undecided_motion_is_hidden():
     assert f"and {count - 13} narrower ranges" in text
 
 
-def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
-    code, out, errors = told(
+def test_as_json_over_the_frequency_at_impacts(tmp_path, run_in):
+    code, out, errors = run_in(
         tmp_path,
         *("B2-G1-A3", "--vary", "frequency=2Hz:2.4Hz:5", "--direction", "down"),
         *("--quantity", "impact-velocity", "--phase", "90deg", "--json"),

@@ -25,19 +25,19 @@ def swing(rig: vi.Oscillator, frequency: float) -> float:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory, told):
+def whole(tmp_path_factory, run_in):
     """Of all frequencies: the folder and what is printed."""
     folder = tmp_path_factory.mktemp("whole")
-    code, out, errors = told(folder, "B2-G1-A3")
+    code, out, errors = run_in(folder, "B2-G1-A3")
     assert (code, errors) == (0, "")
     return folder, out
 
 
 @pytest.fixture(scope="module")
-def gaps(tmp_path_factory, told):
+def gaps(tmp_path_factory, run_in):
     """Over the gap: the facts, and the folder of the files."""
     folder = tmp_path_factory.mktemp("gaps")
-    code, out, errors = told(folder, "B2-G1-A3", *GAPS, "--frequency", "2Hz", "--json")
+    code, out, errors = run_in(folder, "B2-G1-A3", *GAPS, "--frequency", "2Hz", "--json")
     assert (code, errors) == (0, "")
     return json.loads(out), folder
 
@@ -58,8 +58,8 @@ def test_summary(whole):
     ):
         assert lines.count(line) == 1
     rows = [line.split() for line in lines if line.startswith(("fold ", "grazing "))]
-    found = [(kind, value) for kind, value, *_ in rows]
-    assert found[-3:] == [
+    points = [(kind, value) for kind, value, *_ in rows]
+    assert points[-3:] == [
         ("fold", "2.659478881"),
         ("fold", "1.665006975"),
         ("grazing", "1.665211522"),
@@ -173,10 +173,10 @@ def test_the_branch_of_another_motion(run, tmp_path):
     )
     shaken = ("--frequency", "0.81rad/s", "--json")
     span = ("--vary", "frequency=0.8rad/s:0.82rad/s")
-    told = "the computed orbit has period 1 and is not the motion from rest, which has period 5"
+    note = "the computed orbit has period 1 and is not the motion from rest, which has period 5"
     code, out, errors = run("soft.toml", *shaken, *span, "--period", "1")
     assert json.loads(out)["branches"][0]["period"] == 1
-    assert (code, told in errors) == (0, True)
+    assert (code, note in errors) == (0, True)
     code, out, errors = run("soft.toml", *shaken, *span, "--period", "5")
     assert (code, errors) == (0, "")
     (branch,) = json.loads(out)["branches"]

@@ -21,7 +21,7 @@ from vibroimpact.engine.rigless_entry import rigless_entry
 
 
 @rigless_entry("f8(f8[::1])")
-def first(given, rig):
+def first(values, rig):
     return rig[0]
 """
 COMPILE = """\

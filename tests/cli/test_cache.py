@@ -70,12 +70,12 @@ def test_what_is_told(run, kept):
 
 def test_other_versions_are_removed(run, kept):
     code, out, _ = run("--clean", "others", "--json")
-    told = json.loads(out)
+    facts = json.loads(out)
     assert code == 0
     assert {p.name for p in kept.parent.iterdir()} == {kept.name, "mine.txt"}
     assert compiled(kept) == 4
-    assert (told["size"], told["removed"], told["in_use"]) == (4_000_000, 2_000_000, [])
-    assert told["kept"][0]["flows"] == ["Apart", "Curved"]
+    assert (facts["size"], facts["removed"], facts["in_use"]) == (4_000_000, 2_000_000, [])
+    assert facts["kept"][0]["flows"] == ["Apart", "Curved"]
 
 
 def test_all_is_removed_but_what_another_process_uses(run, kept):

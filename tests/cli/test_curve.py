@@ -53,9 +53,9 @@ def test_summary_and_files(run, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def ratios(tmp_path_factory, told):
+def ratios(tmp_path_factory, run_in):
     folder = tmp_path_factory.mktemp("ratios")
-    code, out, errors = told(folder, "B2-G1-A3", *RATIO, "--json")
+    code, out, errors = run_in(folder, "B2-G1-A3", *RATIO, "--json")
     assert (code, errors) == (0, "")
     return json.loads(out), folder
 

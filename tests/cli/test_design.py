@@ -48,7 +48,7 @@ def _rig() -> vi.Oscillator:
 
 
 def test_a_study_with_records(run, study):
-    code, told, errors = run("building.toml")
+    code, printed, errors = run("building.toml")
     assert (code, errors) == (0, "")
     out = study / "out"
     assert {p.name for p in out.iterdir()} == {
@@ -66,7 +66,7 @@ def test_a_study_with_records(run, study):
     for name in SIZES:
         np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
     need = vi.required_gap(_rig(), records=records, fractile=0.5)
-    words = " ".join(told.split())
+    words = " ".join(printed.split())
     every = vi.required_gap(_rig(), records=records)
     gap, right, left = (1e3 * float(one) for one in (need["common_gap"], *need["required_gap"]))
     assert (
@@ -98,30 +98,30 @@ def test_where_no_gap_is_enough_for_all_it_is_told():
     gap = vi.required_gap(_rig(), records=RECORDS, fractile=0.0)
     gap["displacement_min"][1] = -np.inf
     data = vi.design_chart(_rig(), {"gap": [0.02, 0.06]}, records=RECORDS, fractile=0.0)
-    told = " ".join(str(line) for line in design.text(_rig(), gap, data, None, list(RECORDS)))
-    assert "; no gap is sufficient for all of them. " in told
-    assert "the mass hits a stop under 1 of the 2 records." in told
+    text = " ".join(str(line) for line in design.text(_rig(), gap, data, None, list(RECORDS)))
+    assert "; no gap is sufficient for all of them. " in text
+    assert "the mass hits a stop under 1 of the 2 records." in text
     assert design.facts(gap, data, None)["common_gap_of_all_records"] is None
 
 
 @pytest.mark.full
 def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     narrow = ("--vary", "gap=20mm:60mm:2")
-    code, told, _ = run("building.toml", "--gap", "50mm", *narrow)
+    code, out, _ = run("building.toml", "--gap", "50mm", *narrow)
     assert code == 0
-    assert "The designs vary the gap; the gap of 50 mm does not affect them." in told
-    code, told, _ = run("building.toml", *narrow)
-    assert "The designs vary" not in told
+    assert "The designs vary the gap; the gap of 50 mm does not affect them." in out
+    code, out, _ = run("building.toml", *narrow)
+    assert "The designs vary" not in out
     limit = ("--limit", "penetration", "800mm")
-    code, told, _ = run("building.toml", "--best", "--gap", "50mm", *narrow, *limit)
+    code, out, _ = run("building.toml", "--best", "--gap", "50mm", *narrow, *limit)
     assert code == 0
-    assert "The designs vary the gap; only the search keeps the gap of 50 mm." in told
-    assert told.rstrip().count("as 50 % fractiles.") == 1
+    assert "The designs vary the gap; only the search keeps the gap of 50 mm." in out
+    assert out.rstrip().count("as 50 % fractiles.") == 1
     note = "Note on this design: the design stays below the limit of penetration: "
-    assert note in " ".join(told.split())
+    assert note in " ".join(out.split())
     stiff = ("--vary", "stops.stiffness=50MN/m:60MN/m:2")
-    code, told, _ = run("building.toml", "--gap", "50mm", *stiff)
-    assert "The designs vary" not in told
+    code, out, _ = run("building.toml", "--gap", "50mm", *stiff)
+    assert "The designs vary" not in out
 
 
 @pytest.mark.full
@@ -129,29 +129,29 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     returning = STUDY.replace('damping = "5 MN s/m"', "restitution = 0.6")
     (study / "wall.toml").write_text(returning)
     vary = ("--vary", "stiffness_at_restitution=50 MN/m:500 MN/m:2")
-    code, told, errors = run("wall.toml", "a.csv", "--gap", "20mm", *vary, "--json")
+    code, out, errors = run("wall.toml", "a.csv", "--gap", "20mm", *vary, "--json")
     assert (code, errors) == (0, "")
-    data = vi.load(study / json.loads(told)["files"]["data"])
+    data = vi.load(study / json.loads(out)["files"]["data"])
     made = [vi.Bumper.from_restitution("5000 t", k, 0.6, 0.0).damping for k in (5e7, 5e8)]
     np.testing.assert_allclose(data["stops.damping"], made, rtol=1e-12)
     assert data["stops.damping"].attrs["units"] == "N s m-1"
-    code, told, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
+    code, out, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
     assert code == 0
-    assert "stops.stiffness    stops.damping" in told
-    assert "designs keep" not in told
-    code, told, _ = run("wall.toml", "a.csv", "--vary", "gap=20mm:60mm:2")
-    assert "damping of" not in told
+    assert "stops.stiffness    stops.damping" in out
+    assert "designs keep" not in out
+    code, out, _ = run("wall.toml", "a.csv", "--vary", "gap=20mm:60mm:2")
+    assert "damping of" not in out
 
 
 @pytest.mark.full
 def test_sines_best_and_json(run, study):
     (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
     words = ("--gap", "200mm", "--vary", "gap=0.1:0.4:3", "--vary", "frequency=0.3Hz:0.5Hz")
-    code, told, errors = run(
+    code, out, errors = run(
         "sines.toml", *words, "--best", "--limit", "penetration", "60mm", "--json"
     )
     assert (code, errors) == (0, "")
-    facts = json.loads(told)
+    facts = json.loads(out)
     rig = _rig()
     rig = rig.replace(**{side: getattr(rig, side).replace(gap=0.2) for side in ("right", "left")})
     need = vi.required_gap(vi.Rig(rig, "0.1 g"), {"frequency": (0.3, 0.5)})
@@ -207,8 +207,8 @@ def test_wrong_input_is_one_line_and_nothing_is_written(refused, study, words, l
 )
 def test_wrong_studies(run, study, table, line):
     (study / "wrong.toml").write_text(STUDY + table)
-    code, told, errors = run("wrong.toml")
-    assert (code, told) == (2, "")
+    code, out, errors = run("wrong.toml")
+    assert (code, out) == (2, "")
     assert errors.count("\n") == 1
     assert line in errors
 
@@ -228,11 +228,11 @@ def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study)
         (1.01 * more, enough + tell + "none of the 2 records."),
         (0.99 * less, f"is {middle - 0.99 * less:.4g} mm short for the 50 % fractile;"),
     ):
-        code, told, errors = run("building.toml", *narrow, "--gap", f"{gap:.9g}mm")
+        code, out, errors = run("building.toml", *narrow, "--gap", f"{gap:.9g}mm")
         assert (code, errors) == (0, "")
-        assert line in " ".join(told.split())
-    code, told, _ = run("building.toml", *narrow, "--json")
-    facts = json.loads(told)
+        assert line in " ".join(out.split())
+    code, out, _ = run("building.toml", *narrow, "--json")
+    facts = json.loads(out)
     assert facts["fractile"] == 0.5
     assert facts["common_gap"] == pytest.approx(1e-3 * middle)
     assert facts["common_gap_of_all_records"] == pytest.approx(1e-3 * more)
@@ -240,8 +240,8 @@ def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study)
 
 def test_a_range_of_frequencies_has_no_values(run, study):
     (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
-    code, told, errors = run("sines.toml", "--vary", "frequency=0.3Hz:0.5Hz:3")
-    assert (code, told) == (2, "")
+    code, out, errors = run("sines.toml", "--vary", "frequency=0.3Hz:0.5Hz:3")
+    assert (code, out) == (2, "")
     assert "--vary: frequency: the sines cover the range, so it has no number of values" in errors
     code, _, errors = run("sines.toml", "--from", "0.3Hz")
     assert code == 2
@@ -255,8 +255,8 @@ def test_a_study_states_the_range_of_the_sines(run, study):
         ("beside those of the study", "", ("--vary", "frequency=0.3Hz:0.5Hz")),
     ):
         (study / "sines.toml").write_text(f"{STUDY}{table}{more} }}\n")
-        code, told, _ = run("sines.toml", *options, "--json")
-        facts = json.loads(told)
+        code, out, _ = run("sines.toml", *options, "--json")
+        facts = json.loads(out)
         need = vi.required_gap(vi.Rig(_rig(), "0.1 g"), {"frequency": (0.3, 0.5)})
         assert (code, facts["designs"]) == (0, 2), name
         assert facts["common_gap"] == float(need["common_gap"]), name

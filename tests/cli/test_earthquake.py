@@ -23,7 +23,7 @@ def quake(tmp_path):
 
 
 def test_words_figure_and_data(run, tmp_path, quake):
-    code, told, errors = run("B2-G1-A3", quake, "--scale", "0.3")
+    code, out, errors = run("B2-G1-A3", quake, "--scale", "0.3")
     assert (code, errors) == (0, "")
     stem = "B2-G1-A3-quake-earthquake"
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
@@ -35,10 +35,10 @@ def test_words_figure_and_data(run, tmp_path, quake):
     direct = vi.seismic_response(vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, record))
     counts = [int(direct["impact_count"].sel(stop=side)) for side in ("right", "left")]
     assert min(counts) > 1
-    assert f"{counts[0]} right, {counts[1]} left" in told
-    assert "The mass hits the right stop" in told
+    assert f"{counts[0]} right, {counts[1]} left" in out
+    assert "The mass hits the right stop" in out
     free = "times the acceleration without stops. Without stops, it would move"
-    assert free in " ".join(told.split())
+    assert free in " ".join(out.split())
     path = tmp_path / f"out/{stem}.nc"
     held = vi.load(path, "response")
     for name in direct.data_vars:
@@ -66,12 +66,12 @@ def test_file_names_leave_out_suffixes_that_distinguish_nothing():
 @pytest.mark.full
 def test_several_records_options_and_json(run, tmp_path, quake):
     (tmp_path / "weak.csv").write_text((tmp_path / quake).read_text())
-    code, told, _ = run(
+    code, out, _ = run(
         *("B2-G1-A3", quake, "weak.csv", "--peak", "0.01 g", "--tail", "3 s", "--gap", "40mm"),
         *("--json", "--name", "made", "--figure", "svg", "--samples", "1"),
     )
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     assert [one["name"] for one in facts["records"]] == ["quake.csv", "weak.csv"]
     for one in facts["records"]:
         assert not any(one["impact_count"].values())
@@ -90,20 +90,20 @@ def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, q
     both = [f"{row},{2.0 * float(row.split(',')[1]):.9g}" for row in rows]
     (tmp_path / "two.csv").write_text("\n".join([f"{head},East (m/s^2)", *both]) + "\n")
     words = ("B2-G1-A3", "two.csv", "two.csv", "--component", "North,East", "--json")
-    code, told, errors = run(*words, "--scale", "0.2, 0.3")
+    code, out, errors = run(*words, "--scale", "0.2, 0.3")
     assert (code, errors) == (0, "")
-    first, second = json.loads(told)["records"]
+    first, second = json.loads(out)["records"]
     assert (first["name"], second["name"]) == ("two.csv North", "two.csv East")
     for one, name, scale in ((first, "North", 0.2), (second, "East", 0.3)):
         record = vi.Record.read(tmp_path / "two.csv", name).scaled(scale)
         direct = vi.seismic_response(vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, record))
         assert one["displacement_max"] == float(direct["displacement_max"])
-    code, told, _ = run(*words, "--peak", "0.02g,0.01g")
-    peaks = [one["record"]["peak"] for one in json.loads(told)["records"]]
+    code, out, _ = run(*words, "--peak", "0.02g,0.01g")
+    peaks = [one["record"]["peak"] for one in json.loads(out)["records"]]
     assert peaks == ["0.02 g", "0.01 g"]
     for option, value in (("--scale", "1,2,3"), ("--peak", "1,2,3"), ("--component", "1,2,3")):
-        given = [*words[:4], value] if option == "--component" else [*words, option, value]
-        assert run(*given)[::2] == (
+        arguments = [*words[:4], value] if option == "--component" else [*words, option, value]
+        assert run(*arguments)[::2] == (
             2,
             f"vibroimpact: error: {option}: '1,2,3' has 3 values for 2 records; pass one value for "
             "all records, or 2 values\n",
@@ -177,6 +177,6 @@ damping = %s
 """
     for damping, expected in ((0.0, True), (1.0, False)):
         (tmp_path / "rig.toml").write_text(study % damping)
-        code, told, _ = run("rig.toml", quake)
+        code, out, _ = run("rig.toml", quake)
         assert code == 0
-        assert ("not settled: the isolator has no damping" in " ".join(told.split())) == expected
+        assert ("not settled: the isolator has no damping" in " ".join(out.split())) == expected

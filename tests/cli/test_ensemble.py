@@ -27,8 +27,8 @@ seed = 3
 """
 
 
-def test_in_words(tmp_path, told):
-    code, out, errors = told(tmp_path, "B2-G1-A3", *GAP, *FEW, "--sensitivity", "--physical")
+def test_in_words(tmp_path, run_in):
+    code, out, errors = run_in(tmp_path, "B2-G1-A3", *GAP, *FEW, "--sensitivity", "--physical")
     assert (code, errors) == (0, "")
     lines = [line.rstrip() for line in out.splitlines()]
     for line in (
@@ -46,9 +46,9 @@ def test_in_words(tmp_path, told):
     np.testing.assert_array_equal(data["eta_d"], same["eta_d"])
 
 
-def test_of_a_study_as_json(tmp_path, told):
+def test_of_a_study_as_json(tmp_path, run_in):
     (tmp_path / "rig.toml").write_text(STUDY, encoding="utf-8")
-    code, out, errors = told(tmp_path, "rig.toml", "--json")
+    code, out, errors = run_in(tmp_path, "rig.toml", "--json")
     assert (code, errors) == (0, "")
     facts = json.loads(out)
     spread = {"stops.stiffness": "lognormal:0.2", "gap": "uniform:7 mm:8 mm"}

@@ -41,11 +41,11 @@ def run(tmp_path, capsys):
 def test_a_spring_without_shaking_swings_at_its_natural_frequency(run, excitation):
     words = ("--displacement", "20 mm", "--cycles", "10.25", "--json")
     code, out, _ = run("simulate", SPRING + excitation, *words)
-    found = json.loads(out)
+    facts = json.loads(out)
     assert code == 0
-    assert found["frequency"] == pytest.approx(math.sqrt(500.0) / math.tau, rel=1e-12)
-    assert found["final_state"]["displacement"] == pytest.approx(0.0, abs=1e-12)
-    assert found["final_state"]["velocity"] == pytest.approx(-0.02 * math.sqrt(500.0), rel=1e-9)
+    assert facts["frequency"] == pytest.approx(math.sqrt(500.0) / math.tau, rel=1e-12)
+    assert facts["final_state"]["displacement"] == pytest.approx(0.0, abs=1e-12)
+    assert facts["final_state"]["velocity"] == pytest.approx(-0.02 * math.sqrt(500.0), rel=1e-9)
 
 
 def test_a_dropped_mass_bounces(run):

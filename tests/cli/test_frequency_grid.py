@@ -118,13 +118,13 @@ def test_without_a_natural_frequency_nothing_is_refused_but_the_default(tmp_path
     path.write_text(NO_SPRING)
     what = subject(str(path), RigOptions())
     assert list_frequencies("1Hz", "2Hz", "1Hz", None, None, default_range(what)) == (1.0, 2.0)
-    for missing, given in (
+    for missing, options in (
         ("--from", (None, "2Hz", "1Hz")),
         ("--to", ("1Hz", None, "1Hz")),
         ("--step", ("1Hz", "2Hz", None)),
     ):
         with pytest.raises(InputError, match=f"{missing}: missing; the isolator has no stiffness"):
-            list_frequencies(*given, None, None, default_range(what))
+            list_frequencies(*options, None, None, default_range(what))
     assert read_one(what, ("frequency=1Hz:2Hz",)).span == (1.0, 2.0)
     assert read_one(what, ("gap=1mm:2mm",)).span == (0.001, 0.002)
     with pytest.raises(InputError, match="--vary: frequency: missing; the isolator has no stiff"):

@@ -64,15 +64,15 @@ def _counterparts(name: str) -> dict[str, tuple[Any, Any]]:
     """Return the defaults of options and of the arguments that they set."""
     command = COMMANDS[name]
     library = inspect.signature(getattr(vi, command.called_function)).parameters
-    found = {}
+    defaults = {}
     for option, one in _options(command).items():
         argument = library.get(command.called_arguments.get(option, option))
         if argument is None or one.kind is not inspect.Parameter.KEYWORD_ONLY:
             continue
         if one.default in (None, (), inspect.Parameter.empty):
             continue  # the study or the function states it, or the option is a list
-        found[option] = (one.default, argument.default)
-    return found
+        defaults[option] = (one.default, argument.default)
+    return defaults
 
 
 @pytest.mark.parametrize("name", CALLING)
@@ -125,15 +125,15 @@ def test_the_help_of_a_command_ends_with_its_examples(name):
 
 def test_parameters_in_the_examples_of_the_help_are_paths():
     texts = [cli._HELP, *(one.__doc__ for one in COMMANDS.values())]
-    found = [
+    examples = [
         path
         for text in texts
         for paths in re.findall(r"--(?:free|set|vary|uncertain|each) ([\w.,]+)", text)
         for path in paths.split(",")
     ]
-    assert len(found) > 15
+    assert len(examples) > 15
     parts = ("isolator", "left", "right")
-    strange = {one for one in found if canonical(one, PARAMETERS) not in PARAMETERS}
+    strange = {one for one in examples if canonical(one, PARAMETERS) not in PARAMETERS}
     assert not strange.difference(parts, NAMES)
 
 

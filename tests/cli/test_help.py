@@ -17,10 +17,10 @@ GROUPS = {"rigs": RigOptions, "output": OutputOptions}
 @pytest.mark.parametrize("topic", GROUPS)
 def test_a_topic_explains_every_option_of_its_group(topic, capsys):
     assert main(["help", topic]) == 0
-    told = capsys.readouterr().out
+    text = capsys.readouterr().out
     for field in fields(GROUPS[topic]):
         option = "set" if field.name == "values" else field.name.replace("_", "-")
-        assert f"--{option}" in told, option
+        assert f"--{option}" in text, option
 
 
 @pytest.mark.parametrize("group", GROUPS.values())
@@ -31,22 +31,22 @@ def test_a_command_has_one_line_for_each_of_them(group):
 
 def test_topics_are_listed(capsys):
     assert main(["help"]) == 0
-    told = capsys.readouterr().out
-    assert all(f"{name} " in told and one.summary in told for name, one in TOPICS.items())
+    text = capsys.readouterr().out
+    assert all(f"{name} " in text and one.summary in text for name, one in TOPICS.items())
 
 
 def test_commands_and_the_first_help_refer_to_the_topics(capsys):
     for words in (["--help"], ["sweep", "--help"]):
         assert main(words) == 0
-        told = " ".join(capsys.readouterr().out.split())
-        assert all(f"vibroimpact help {name}" in told for name in TOPICS)
+        text = " ".join(capsys.readouterr().out.split())
+        assert all(f"vibroimpact help {name}" in text for name in TOPICS)
 
 
 def test_help_of_a_command(capsys):
     assert main(["help", "sweep"]) == 0
-    told = capsys.readouterr().out
+    text = capsys.readouterr().out
     assert main(["sweep", "--help"]) == 0
-    assert told == capsys.readouterr().out
+    assert text == capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -59,6 +59,6 @@ def test_help_of_a_command(capsys):
 )
 def test_an_unknown_topic(topic, advice, capsys):
     assert main(["help", topic]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err == f"vibroimpact: error: help: unknown topic {topic!r}; {advice}\n"
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert output.err == f"vibroimpact: error: help: unknown topic {topic!r}; {advice}\n"

@@ -30,7 +30,7 @@ DEEP = "nests tables or lists more than 20 levels deep"
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("x = " + "[" * 2000 + "]" * 2000 + RIG, DEEP),
         ("x = " + "{a=" * 2000 + "1" + "}" * 2000 + RIG, DEEP),
@@ -46,10 +46,10 @@ DEEP = "nests tables or lists more than 20 levels deep"
         ('"k\\u001b[31m" = 1' + RIG, "k\\x1b[31m: unknown key"),
     ],
 )
-def test_what_cannot_be_read_is_one_line(tmp_path, capsys, text, told):
+def test_what_cannot_be_read_is_one_line(tmp_path, capsys, text, message):
     assert main(["sweep", study(tmp_path, text), *SWEEP, "-o", str(tmp_path)]) == 2
     error = capsys.readouterr().err
-    assert told in error
+    assert message in error
     assert len(error.splitlines()) == 1
     assert "\x1b" not in error
 
@@ -67,9 +67,9 @@ def test_studies_in_other_scripts_have_files_of_their_own(tmp_path, capsys):
         path = study(tmp_path, f'name = "{name}"' + RIG, f"{name}.toml")
         assert main(["sweep", path, *SWEEP, "-o", str(tmp_path)]) == 0
         assert (tmp_path / f"{name}-sweep.nc").is_file()
-    told = capsys.readouterr()
-    assert "replaced" not in told.out
-    (line,) = [line for line in told.err.splitlines() if "隔" in line]
+    output = capsys.readouterr()
+    assert "replaced" not in output.out
+    (line,) = [line for line in output.err.splitlines() if "隔" in line]
     assert "boxes are drawn" in line
 
 

@@ -29,15 +29,15 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
              "isolator.stiffness", "--starts", "1",
              "--output", str(tmp_path), "--json"]  # fmt: skip
     assert main(words) == 0
-    told = json.loads(capsys.readouterr().out)
-    found = told["parameters"]["isolator.stiffness"]
-    assert abs(found["value"] - 31900.0) < 4.0 * found["standard_error"]
-    low, high = found["interval"]
-    assert low < found["value"] < high
-    assert told["amplitudes"] == {"test": "0.04 g, from test.csv"}
+    facts = json.loads(capsys.readouterr().out)
+    stiffness = facts["parameters"]["isolator.stiffness"]
+    assert abs(stiffness["value"] - 31900.0) < 4.0 * stiffness["standard_error"]
+    low, high = stiffness["interval"]
+    assert low < stiffness["value"] < high
+    assert facts["amplitudes"] == {"test": "0.04 g, from test.csv"}
     assert "0.04 g, from test.csv" in (tmp_path / "B2-G2-A2-fit.md").read_text()
-    assert {"report", "markdown", "data"} < set(told["files"])
-    assert any("next test" in line for line in told["next"])
+    assert {"report", "markdown", "data"} < set(facts["files"])
+    assert any("next test" in line for line in facts["next"])
     study = tmp_path / "B2-G2-A2-fit.toml"
     assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
 
@@ -56,12 +56,12 @@ def test_names_of_files_and_columns_stay_text(file, tmp_path, capsys):
     test.write_text(file.read_text().replace("Ea [g]", "Ea \x1b[32m [g]"))
     words = ["identify", str(test), "--rig", "B2-G2-A2", "--free", "gap", "--starts", "1"]
     assert main([*words, "-o", str(tmp_path)]) == 0
-    told = capsys.readouterr()
+    output = capsys.readouterr()
     written = [(tmp_path / f"B2-G2-A2-fit.{ending}").read_text() for ending in ("md", "html")]
-    assert r"a\x1b[31m # b" in told.out
+    assert r"a\x1b[31m # b" in output.out
     assert r"a\\x1b[31m # b" in written[0]
     assert r"a\x1b[31m # b" in written[1]
-    for text in (told.out, told.err, *written):
+    for text in (output.out, output.err, *written):
         assert "\x1b" not in text
         assert "\n# b" not in text
     assert "<i>" not in written[1]
@@ -90,8 +90,8 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
         "1",
     ]
     assert main([*words, "-o", str(tmp_path), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["parameters"]["isolator.stiffness"]
-    assert found["value"] == pytest.approx(31900.0, rel=0.01)
+    stiffness = json.loads(capsys.readouterr().out)["parameters"]["isolator.stiffness"]
+    assert stiffness["value"] == pytest.approx(31900.0, rel=0.01)
 
 
 @pytest.mark.full
@@ -128,17 +128,17 @@ def test_an_amplitude_without_a_unit_is_asked_for(file, tmp_path, capsys):
         "1",
     ]
     assert main([*words, "-o", str(tmp_path)]) == 2
-    told = " ".join(capsys.readouterr().err.split())
-    assert "amplitude = 0.04 has no unit; pass amplitude= (--amplitude) with a unit" in told
+    text = " ".join(capsys.readouterr().err.split())
+    assert "amplitude = 0.04 has no unit; pass amplitude= (--amplitude) with a unit" in text
     assert main([*words, "-o", str(tmp_path), "--amplitude", "0.04 g", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["amplitudes"] == {"bare": "0.04 g, from the call"}
-    assert not any("the fit used the amplitude" in line for line in found["findings"])
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["amplitudes"] == {"bare": "0.04 g, from the call"}
+    assert not any("the fit used the amplitude" in line for line in facts["findings"])
     path.write_text(file.read_text().replace("0.04 g", "0.04 m/s^2", 1))
     assert main([*words, "-o", str(tmp_path)]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    assert "amplitude of bare: 0.004079 g, from bare.csv" in told
-    assert "the fit used the amplitude 0.004079 g, from bare.csv" in told
+    text = " ".join(capsys.readouterr().out.split())
+    assert "amplitude of bare: 0.004079 g, from bare.csv" in text
+    assert "the fit used the amplitude 0.004079 g, from bare.csv" in text
 
 
 def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):
@@ -168,15 +168,15 @@ def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):
         "1",
     ]
     assert main([*words, "-o", str(tmp_path), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    best = told["best_model"]
+    facts = json.loads(capsys.readouterr().out)
+    best = facts["best_model"]
     assert best["model"] == "softening"
     for name, value in (("isolator.stiffness", 31900.0), ("isolator.cubic", 4e7)):
-        found = best["parameters"][name]
-        low, high = found["interval"]
-        assert low < found["value"] < high
-        assert abs(found["value"] - value) < 4.0 * found["standard_error"]
-    assert {"softening: report", "softening: data"} < set(told["files"])
+        parameter = best["parameters"][name]
+        low, high = parameter["interval"]
+        assert low < parameter["value"] < high
+        assert abs(parameter["value"] - value) < 4.0 * parameter["standard_error"]
+    assert {"softening: report", "softening: data"} < set(facts["files"])
     assert "isolator.cubic" in (tmp_path / "guess-fit-softening.toml").read_text()
 
 
@@ -193,7 +193,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         (["--free", "gap", "--compare", "plastic"], "--compare"),
         (
@@ -209,7 +209,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
         (["--free", "stiffness"], "did you mean 'isolator.stiffness' or 'stops.stiffness'?"),
     ],
 )
-def test_wrong_words_are_told(file, tmp_path, capsys, words, told):
-    given = ["identify", str(file), "--rig", "B2-G2-A2", "-o", str(tmp_path), *words]
-    assert main(given) == 2
-    assert told in capsys.readouterr().err
+def test_wrong_words_are_told(file, tmp_path, capsys, words, message):
+    line = ["identify", str(file), "--rig", "B2-G2-A2", "-o", str(tmp_path), *words]
+    assert main(line) == 2
+    assert message in capsys.readouterr().err

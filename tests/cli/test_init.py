@@ -22,8 +22,8 @@ KINDS = get_args(Kind)
 def test_a_file_runs_as_it_is(kind, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["init", "start.toml", "--kind", kind]) == 0
-    told = capsys.readouterr().out
-    assert told.splitlines()[-1] == "wrote start.toml"
+    out = capsys.readouterr().out
+    assert out.splitlines()[-1] == "wrote start.toml"
     text = Path("start.toml").read_text(encoding="utf-8")
     assert "{" not in re.sub(r"= \{.*?\}", "", text)  # no name was left open
     read_study(Path("start.toml"))
@@ -102,7 +102,7 @@ def test_nothing_is_replaced(tmp_path, capsys):
 def test_wrong_input_is_one_line(words, named, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["init", *words]) == 2
-    told = capsys.readouterr()
-    assert told.err.count("\n") == 1
-    assert named in told.err
+    output = capsys.readouterr()
+    assert output.err.count("\n") == 1
+    assert named in output.err
     assert list(tmp_path.iterdir()) == []

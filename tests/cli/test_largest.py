@@ -32,10 +32,10 @@ WALL = BUILDING.replace(
 @pytest.mark.full
 def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     (tmp_path / "building.toml").write_text(BUILDING)
-    code, told, errors = run("building.toml", "--physical")
+    code, out, errors = run("building.toml", "--physical")
     assert (code, errors) == (0, "")
     data = vi.load(tmp_path / "out/building-sweep.nc")
-    rows = {line.rsplit("  at ")[0].strip() for line in told.splitlines() if " Hz, " in line}
+    rows = {line.rsplit("  at ")[0].strip() for line in out.splitlines() if " Hz, " in line}
     for words, name, unit, symbol in (
         ("displacement to the right", "displacement_max", 1e-3, "mm"),
         ("displacement to the left", "displacement_min", -1e-3, "mm"),
@@ -44,11 +44,11 @@ def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     ):
         values = quantity(data, name).values / unit
         line = next(row for row in rows if row.startswith(words))
-        number, found = line.removeprefix(words).split()
-        assert found == symbol
+        number, suffix = line.removeprefix(words).split()
+        assert suffix == symbol
         assert float(number) == pytest.approx(values.max(), rel=5e-4)
     assert not [row for row in rows if row.startswith(("force of the left", "impulse"))]
-    assert "e+" not in told
+    assert "e+" not in out
 
 
 def test_the_width_of_a_column(run, tmp_path):
@@ -66,12 +66,12 @@ def test_the_width_of_a_column(run, tmp_path):
 
 def test_as_json_in_si_units(run, tmp_path):
     (tmp_path / "wall.toml").write_text(WALL)
-    code, told, _ = run("wall.toml", "--json")
+    code, out, _ = run("wall.toml", "--json")
     assert code == 0
-    found = json.loads(told)["largest"]
+    facts = json.loads(out)["largest"]
     data = vi.load(tmp_path / "out/wall-sweep.nc")
-    assert "peak_force.right" not in found  # an impact has no finite one
-    one = found["peak_impulse.right"]
+    assert "peak_force.right" not in facts  # an impact has no finite one
+    one = facts["peak_impulse.right"]
     assert one["value"] == pytest.approx(
         float(data["peak_impulse"].sel(stop="right").max()), rel=1e-9
     )
@@ -90,9 +90,9 @@ def test_of_what_is_the_same_to_rounding_the_forward_sweep_is_named():
     more = xr.where(data["direction"] == "backward", 1.0 + 1e-12, 1.0)
     for name in ("displacement_max", "peak_acceleration"):
         data[name] = data[name] * more
-    found = largest.facts(data)
-    assert [found[name]["direction"] for name in ("displacement_max", "peak_acceleration")] == [
+    facts = largest.facts(data)
+    assert [facts[name]["direction"] for name in ("displacement_max", "peak_acceleration")] == [
         "forward",
         "forward",
     ]
-    assert set(found) == {"displacement_max", "displacement_min", "peak_acceleration"}
+    assert set(facts) == {"displacement_max", "displacement_min", "peak_acceleration"}

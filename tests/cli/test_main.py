@@ -24,33 +24,33 @@ def test_version(capsys):
 @pytest.mark.parametrize("words", [["--help"], ["-h"], []])
 def test_help_names_the_commands_with_examples(capsys, words):
     assert main(words) == 0
-    told = capsys.readouterr().out
-    assert "sweep " in told
-    assert "simulate " in told
-    assert "vibroimpact sweep B2-G1-A3" in told
+    text = capsys.readouterr().out
+    assert "sweep " in text
+    assert "simulate " in text
+    assert "vibroimpact sweep B2-G1-A3" in text
 
 
 def test_help_of_a_command_names_its_options(capsys):
     assert main(["sweep", "--help"]) == 0
-    told = capsys.readouterr().out
+    text = capsys.readouterr().out
     for option in ("--from", "--to", "--step", "--frequencies", "--direction", "--parameters"):
-        assert option in told
+        assert option in text
     for option in ("--set", "PATH=VALUE", "--gap", "--amplitude"):
-        assert option in told
+        assert option in text
     for option in ("--output", "-o", "--json", "--threads", "--tolerance", "--max-cycles"):
-        assert option in told
+        assert option in text
     for hidden in ("--no-json", "--no-set", "--changes", "--start"):
-        assert hidden not in told
+        assert hidden not in text
 
 
 @pytest.mark.parametrize("words", [["swep"], ["--bogus"], ["sweep"], ["sweep", "--bogus"]])
 def test_usage_errors_are_one_line(capsys, words):
     assert main(words) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err.startswith("vibroimpact: error: ")
-    assert told.err.count("\n") == 1
-    assert "--help" in told.err
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert output.err.startswith("vibroimpact: error: ")
+    assert output.err.count("\n") == 1
+    assert "--help" in output.err
 
 
 def test_help_loads_nothing_that_computes():

@@ -37,22 +37,22 @@ def test_advice_names_the_option(run, tmp_path, option):
     argument = option.removeprefix("--").replace("-", "_")
     data = vi.load(tmp_path / "out" / f"{NAME}.nc")
     assert f"raise {argument}" in data.attrs["notes"]
-    told = json.loads(run(*WORDS, option, few, "--json")[1])
-    assert f"raise {option}" in "".join(told["notes"])
+    facts = json.loads(run(*WORDS, option, few, "--json")[1])
+    assert f"raise {option}" in "".join(facts["notes"])
 
 
 def test_a_saddle_that_is_given(run, tmp_path):
     begun = ("--saddle", "-5.3mm,-2mm/s", "--phase", "180deg")
     code, out, _ = run(*WORDS, *begun, "--longest", "0.2", "--json")
     assert code == 0
-    told = json.loads(out)
-    data = vi.load(tmp_path / told["files"]["data"])
+    facts = json.loads(out)
+    data = vi.load(tmp_path / facts["files"]["data"])
     # The mirror image of the one that the border at no phase leads to.
-    (saddle,) = told["saddles"]
+    (saddle,) = facts["saddles"]
     assert saddle["displacement"] == pytest.approx(-0.005304, rel=1e-3)
     assert saddle["displacement"] == float(data["saddle_displacement"][0])
-    assert [one["kind"] for one in told["curves"]] == list(data["curve_kind"].values)
-    assert told["crossings"] == 0
+    assert [one["kind"] for one in facts["curves"]] == list(data["curve_kind"].values)
+    assert facts["crossings"] == 0
 
 
 @pytest.mark.parametrize(

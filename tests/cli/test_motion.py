@@ -27,11 +27,11 @@ def groups(path: Path) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def two(tmp_path_factory, told):
+def two(tmp_path_factory, run_in):
     """Two motions that coexist: the facts, and the folder of the files."""
     folder = tmp_path_factory.mktemp("two")
     words = ("B2-G1-A3", "--frequency", "2Hz", "--random", "3", "--json")
-    code, out, errors = told(folder, *words)
+    code, out, errors = run_in(folder, *words)
     assert (code, errors) == (0, "")
     return json.loads(out), folder
 
@@ -159,8 +159,8 @@ def test_list_of_frequencies(run, tmp_path):
     code, out, _ = run("B2-G1-A3", *words, "--output", "figure8", "--name", "two", *AS_PDF)
     assert code == 0
     facts = json.loads(out)
-    found = [(motion["frequency"], motion["name"]) for motion in facts["motions"]]
-    assert found == [
+    motions = [(motion["frequency"], motion["name"]) for motion in facts["motions"]]
+    assert motions == [
         (0.58, "forward and backward branch"),
         (2.6, "forward branch"),
         (2.6, "backward branch"),

@@ -23,16 +23,16 @@ def words(text: str) -> Counter[str]:
 
 
 @pytest.fixture
-def told(tmp_path, monkeypatch):
+def run_at(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
-    def told(columns: int, *line: str) -> str:
+    def run_at(columns: int, *line: str) -> str:
         monkeypatch.setenv("COLUMNS", str(columns))
         with contextlib.redirect_stdout(Terminal()) as out:
             assert main(line) == 0
         return out.getvalue().replace(" (replaced)", "")
 
-    return told
+    return run_at
 
 
 @pytest.mark.parametrize(
@@ -51,23 +51,23 @@ def told(tmp_path, monkeypatch):
     ],
     ids=lambda line: line[0],
 )
-def test_no_digit_is_lost(told, line):
-    wide = told(200, *line)
+def test_no_digit_is_lost(run_at, line):
+    wide = run_at(200, *line)
     assert "…" not in wide
     for columns in (80, 60):
-        assert words(told(columns, *line)) == words(wide)
+        assert words(run_at(columns, *line)) == words(wide)
 
 
-def test_a_long_path_is_whole(told):
+def test_a_long_path_is_whole(run_at):
     name = "a-name-of-a-file-that-is-longer-than-any-terminal-is-wide-"
-    told_ = told(60, "sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz", "--name", name)
-    assert f"  out/{name.rstrip('.')}-sweep.txt\n" in told_
+    text = run_at(60, "sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz", "--name", name)
+    assert f"  out/{name.rstrip('.')}-sweep.txt\n" in text
 
 
 @pytest.mark.parametrize("columns", [80, 60])
 @pytest.mark.parametrize("command", ["sweep", "motion", "map"])
-def test_help_is_whole(told, command, columns):
-    narrow = told(columns, command, "--help")
+def test_help_is_whole(run_at, command, columns):
+    narrow = run_at(columns, command, "--help")
     assert "…" not in narrow
-    for option in re.findall(r"--[a-z-]+", told(200, command, "--help")):
+    for option in re.findall(r"--[a-z-]+", run_at(200, command, "--help")):
         assert option in narrow

@@ -20,7 +20,7 @@ def quake(tmp_path):
 
 
 def test_summary_figure_and_data(run, tmp_path, quake):
-    code, told, errors = run(quake, "--damping", "0,0.05", "--periods", "50")
+    code, out, errors = run(quake, "--damping", "0,0.05", "--periods", "50")
     assert (code, errors) == (0, "")
     for words in (
         "PEER AT2, values in g",
@@ -30,7 +30,7 @@ def test_summary_figure_and_data(run, tmp_path, quake):
         "at 0.03 s",
         "spectrum, ζ = 0.05",
     ):
-        assert words in told
+        assert words in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         "quake-record.nc",
         "quake-record.png",
@@ -47,13 +47,13 @@ def test_summary_figure_and_data(run, tmp_path, quake):
 
 
 def test_changes_in_their_order_and_json(run, quake):
-    code, told, _ = run(
+    code, out, _ = run(
         *(quake, "--unit", "m/s^2", "--step", "20ms", "--station", "elsewhere", "--label", "Z"),
         *("--start", "20ms", "--end", "0.1 s", "--baseline", "mean", "--peak", "0.2 g"),
         *("--periods", "20", "--json", "--name", "made", "--figure", "svg"),
     )
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     assert facts["samples"] == 5
     assert facts["peak"] == pytest.approx(1.96133)
     assert (facts["station"], facts["component"]) == ("elsewhere", "Z")
@@ -101,8 +101,8 @@ def test_a_study_takes_a_component(tmp_path, run):
     ],
 )
 def test_wrong_input_is_one_line_and_nothing_is_written(run, tmp_path, quake, words, line):
-    code, told, errors = run(quake, *words)
-    assert (code, told) == (2, "")
+    code, out, errors = run(quake, *words)
+    assert (code, out) == (2, "")
     assert errors.startswith("vibroimpact: error: ")
     assert errors.count("\n") == 1
     assert line.removeprefix("--") in errors

@@ -90,17 +90,17 @@ def test_the_parameter_set_of_a_study_that_an_option_replaces(tmp_path):
 def test_a_replaced_file_is_told(run, tmp_path):
     run("B2-G1-A3", *FEW)
     (tmp_path / "out/B2-G1-A3-sweep.txt").unlink()
-    _, told, _ = run("B2-G1-A3", *FEW)
-    lines = [line.strip() for line in told.splitlines()]
+    _, out, _ = run("B2-G1-A3", *FEW)
+    lines = [line.strip() for line in out.splitlines()]
     assert lines[-3:] == [
         "out/B2-G1-A3-sweep.nc (replaced)",
         "out/B2-G1-A3-sweep.png (replaced)",
         "out/B2-G1-A3-sweep.txt",
     ]
-    _, told, _ = run("B2-G1-A3", *FEW, "--json")
-    assert json.loads(told)["replaced"] == [f"out/B2-G1-A3-sweep.{e}" for e in ("nc", "png", "txt")]
-    _, told, _ = run("B2-G1-A3", *FEW, "--json", "--gap", "9mm")
-    facts = json.loads(told)
+    _, out, _ = run("B2-G1-A3", *FEW, "--json")
+    assert json.loads(out)["replaced"] == [f"out/B2-G1-A3-sweep.{e}" for e in ("nc", "png", "txt")]
+    _, out, _ = run("B2-G1-A3", *FEW, "--json", "--gap", "9mm")
+    facts = json.loads(out)
     assert (facts["name"], facts["replaced"]) == ("B2-G1-A3, gap 9 mm", [])
 
 

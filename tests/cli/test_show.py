@@ -15,39 +15,39 @@ COMMAND = "show"
 
 
 def test_one_mass(run, tmp_path) -> None:
-    code, told, errors = run("B2-G1-A3", "--figure", "svg")
+    code, out, errors = run("B2-G1-A3", "--figure", "svg")
     assert (code, errors) == (0, "")
-    assert "natural frequency 1.1 Hz" in told
-    assert "Static equilibrium: u = 0 m" in told
+    assert "natural frequency 1.1 Hz" in out
+    assert "Static equilibrium: u = 0 m" in out
     assert (tmp_path / "out/B2-G1-A3-system.svg").stat().st_size > 1000
 
 
 @pytest.mark.parametrize("kind", ["neighbours", "frame", "record", "mass"])
 def test_every_kind_of_study(kind, run, tmp_path) -> None:
     assert main(["init", str(tmp_path / "own.toml"), "--kind", kind]) == 0
-    code, told, errors = run("own.toml")
+    code, out, errors = run("own.toml")
     assert (code, errors) == (0, "")
-    assert told.splitlines()[-1] == "  out/own-system.png"
-    assert "Static equilibrium" in told
+    assert out.splitlines()[-1] == "  out/own-system.png"
+    assert "Static equilibrium" in out
 
 
 def test_modes_and_the_equilibrium_are_those_of_the_library(run, tmp_path) -> None:
     assert main(["init", str(tmp_path / "own.toml"), "--kind", "frame"]) == 0
     pushed = (tmp_path / "own.toml").read_text() + "\n[assembly.forces]\nroof = '70 kN'\n"
     (tmp_path / "pushed.toml").write_text(pushed)
-    code, told, errors = run("pushed.toml", "--json")
+    code, out, errors = run("pushed.toml", "--json")
     assert (code, errors) == (0, "")
-    found = json.loads(told)
-    first = found["modes"][0]
-    assert first["natural_frequency"] == pytest.approx(found["natural_frequencies"][0])
+    facts = json.loads(out)
+    first = facts["modes"][0]
+    assert first["natural_frequency"] == pytest.approx(facts["natural_frequencies"][0])
     assert max(first["mode_shape"].values()) == pytest.approx(1.0)
-    moved = found["equilibrium"]["displacement"]
+    moved = facts["equilibrium"]["displacement"]
     assert moved["base"] == pytest.approx(0.01)  # 70 kN on 7 MN/m
     assert moved["roof"] == pytest.approx(0.01 + 3 * 70e3 / 150e6)
-    _, told, _ = run("pushed.toml")
-    assert re.search(r"roof +11\.4$", told, re.M)
-    assert told.count("Note: ") == 1
-    assert "Note: damping: the undamped modes do not decouple it" in told
+    _, out, _ = run("pushed.toml")
+    assert re.search(r"roof +11\.4$", out, re.M)
+    assert out.count("Note: ") == 1
+    assert "Note: damping: the undamped modes do not decouple it" in out
 
 
 def test_without_units(run, tmp_path) -> None:
@@ -59,10 +59,10 @@ def test_without_units(run, tmp_path) -> None:
         "kind = 'rigid'\nrestitution = 0.5\ngap = 0.1\n"
         "[excitation]\namplitude = 1\n"
     )
-    code, told, errors = run("pair.toml")
+    code, out, errors = run("pair.toml")
     assert code == 0, errors
-    assert "Hz" not in told
-    assert "mode    ω" in told
+    assert "Hz" not in out
+    assert "mode    ω" in out
 
 
 def test_the_drawing_of_one_mass_has_what_it_has() -> None:

@@ -14,10 +14,10 @@ COMMAND = "simulate"
 
 
 def test_summary_and_files(run, tmp_path):
-    code, told, _ = run("B2-G1-A3", "--frequency", "0.58Hz")
+    code, out, _ = run("B2-G1-A3", "--frequency", "0.58Hz")
     assert code == 0
-    assert "State after 100 cycles" in told
-    assert "Contacts per cycle, over the last 10: 1 right, 1 left" in told
+    assert "State after 100 cycles" in out
+    assert "Contacts per cycle, over the last 10: 1 right, 1 left" in out
     stem = "B2-G1-A3-0.58Hz-history"
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
     data = vi.load(tmp_path / f"out/{stem}.nc")
@@ -28,12 +28,12 @@ def test_summary_and_files(run, tmp_path):
 
 
 def test_json_and_options(run, tmp_path):
-    code, told, _ = run(
+    code, out, _ = run(
         *("B2-G1-A3", "--frequency", "2.5 Hz", "--cycles", "300", "--samples", "16"),
         *("--displacement", "5mm", "--velocity", "-50 mm/s", "--shown", "2", "--json"),
     )
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.simulate(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.5)), 300, vi.State(5e-3, -0.05), 16

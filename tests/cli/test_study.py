@@ -50,8 +50,8 @@ def test_an_own_oscillator_by_period_and_damping_ratio(write):
     [excitation]
     amplitude = "0.1 g"
     """
-    found = subject(str(write(text)), RigOptions()).oscillator
-    assert found == vi.Oscillator(5e6, vi.Isolator.from_period(5e6, 2.5, 0.15))
+    oscillator = subject(str(write(text)), RigOptions()).oscillator
+    assert oscillator == vi.Oscillator(5e6, vi.Isolator.from_period(5e6, 2.5, 0.15))
 
 
 def test_a_rigid_stop_is_named_by_its_kind(write):
@@ -111,13 +111,13 @@ def test_all_unknown_keys_are_named_and_no_class_of_python(write):
     path = write('case = "B2-G1-A3"\nform = 1\n[sweep]\nstepp = 1\n[simulate]\nfrequncy = 2\n')
     with pytest.raises(vi.InputError) as caught:
         read_study(path)
-    told = str(caught.value)
+    message = str(caught.value)
     for key, meant in (("sweep.stepp", "step"), ("simulate.frequncy", "frequency")):
-        assert f"{key}: unknown key; " in told
-        assert f"; did you mean {meant}? Use " in told
-    assert "form: unknown key; " in told
+        assert f"{key}: unknown key; " in message
+        assert f"; did you mean {meant}? Use " in message
+    assert "form: unknown key; " in message
     for name in ("SweepTable", "SimulateTable", "Study", "ExcitationTable", "Oscillator"):
-        assert name not in told
+        assert name not in message
     for text in ('case = "B2-G1-A3"\nsweep = 1', 'name = "x"', 'case = "B2-G1-A3"\noscillator = 3'):
         with pytest.raises(vi.InputError) as caught:
             read_study(write(text))
@@ -302,11 +302,11 @@ class TestWhatShakes:
         write(csv, "quake.csv")
         path = write(RIG + f'[excitation]\nrecord = "quake.csv"\n{text}\n')
         assert main(("simulate", str(path))) == 2
-        told = capsys.readouterr()
-        assert told.out == ""
-        assert told.err.startswith(f"vibroimpact: error: study {str(path)!r}: excitation")
-        assert re.search(message, told.err)
-        assert told.err.count("\n") == 1
+        output = capsys.readouterr()
+        assert output.out == ""
+        assert output.err.startswith(f"vibroimpact: error: study {str(path)!r}: excitation")
+        assert re.search(message, output.err)
+        assert output.err.count("\n") == 1
 
     @pytest.mark.parametrize(
         ("text", "message"),
@@ -329,6 +329,6 @@ class TestWhatShakes:
     def test_amplitudes_that_cannot_be_used(self, write, capsys, text, message):
         path = write(RIG + f"[excitation]\n{text}\n")
         assert main(("sweep", str(path))) == 2
-        told = capsys.readouterr().err
-        assert re.search(rf"study '.*': excitation[.:] ?{message}", told)
-        assert told.count("\n") == 1
+        error = capsys.readouterr().err
+        assert re.search(rf"study '.*': excitation[.:] ?{message}", error)
+        assert error.count("\n") == 1

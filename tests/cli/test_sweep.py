@@ -17,12 +17,12 @@ COARSE = ["--step", "0.1Hz"]
 
 
 def test_summary_and_files(run, tmp_path):
-    code, told, errors = run("B2-G1-A3", "--parameters", "identified")
+    code, out, errors = run("B2-G1-A3", "--parameters", "identified")
     assert code == 0
     assert "error" not in errors
-    assert "K = 26.8 kN/m" in told
-    assert "K = 510 kN/m, C = 0.9 kN s/m, gap 7.5 mm" in told
-    lines = [" ".join(line.split()) for line in told.splitlines()]
+    assert "K = 26.8 kN/m" in out
+    assert "K = 510 kN/m, C = 0.9 kN s/m, gap 7.5 mm" in out
+    lines = [" ".join(line.split()) for line in out.splitlines()]
     assert any(line.startswith("forward downward 2.65 and 2.66") for line in lines)
     assert any(line.startswith("backward upward 1.68 and 1.67") for line in lines)
     assert any(line.startswith("η_a forward secondary 0.57") for line in lines)
@@ -30,9 +30,9 @@ def test_summary_and_files(run, tmp_path):
     files = {p.name for p in (tmp_path / "out").iterdir()}
     assert files == {f"B2-G1-A3-identified-sweep.{ending}" for ending in ("nc", "png", "txt")}
     for name in files:
-        assert f"out/{name}" in told
+        assert f"out/{name}" in out
     written = (tmp_path / "out/B2-G1-A3-identified-sweep.txt").read_text(encoding="utf-8")
-    assert [line.rstrip() for line in told.splitlines()][: len(written.splitlines())] == (
+    assert [line.rstrip() for line in out.splitlines()][: len(written.splitlines())] == (
         written.splitlines()
     )
     data = vi.load(tmp_path / "out/B2-G1-A3-identified-sweep.nc")
@@ -43,9 +43,9 @@ def test_summary_and_files(run, tmp_path):
 
 
 def test_json_and_nothing_else(run, tmp_path):
-    code, told, _ = run("B2-G1-A3", *COARSE, "--json", "-o", "deep/folder")
+    code, out, _ = run("B2-G1-A3", *COARSE, "--json", "-o", "deep/folder")
     assert code == 0
-    facts = json.loads(told)
+    facts = json.loads(out)
     assert facts["oscillator"]["isolator"]["stiffness"] == 26290.0
     assert facts["frequencies"] == {"from": 0.5, "to": 5.0, "count": 46}
     assert facts["dimensionless"]["right"]["stiffness_ratio"] == pytest.approx(19.4, abs=0.05)
@@ -58,26 +58,26 @@ def test_json_and_nothing_else(run, tmp_path):
 
 def test_left_hysteresis_and_advice(run):
     words = ("B3-10mm-A3", "--from", "0.6Hz", "--to", "1.2Hz", "--step", "0.01Hz")
-    _, told, _ = run(*words)
-    assert "0.68 to 0.72 Hz: left (backward curve above forward curve)" in told
-    assert "Motion not settled\n" in told
-    assert "raise --max-cycles" in told
-    assert "Advice: " in told
+    _, out, _ = run(*words)
+    assert "0.68 to 0.72 Hz: left (backward curve above forward curve)" in out
+    assert "Motion not settled\n" in out
+    assert "raise --max-cycles" in out
+    assert "Advice: " in out
 
 
 @pytest.mark.parametrize("code", ["B2-Ginf-A3", "B3-0mm-A3"])
 def test_smooth_rigs(run, code):
-    status, told, _ = run(code, *COARSE)
+    status, out, _ = run(code, *COARSE)
     assert status == 0
-    assert "Jumps: none" in told
-    assert "Hysteresis: none" in told
+    assert "Jumps: none" in out
+    assert "Hysteresis: none" in out
 
 
 def test_one_direction(run):
-    code, told, _ = run("B2-G1-A3", *COARSE, "--direction", "backward")
+    code, out, _ = run("B2-G1-A3", *COARSE, "--direction", "backward")
     assert code == 0
-    assert "Hysteresis: not computed" in told
-    assert "forward" not in told
+    assert "Hysteresis: not computed" in out
+    assert "forward" not in out
 
 
 def test_listed_frequencies_are_held_as_they_are(run, tmp_path):
@@ -226,8 +226,8 @@ def test_interrupted(run, tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("vibroimpact.response.sweep.sweeps", interrupted)
-    code, told, errors = run("B2-G1-A3")
-    assert (code, told, errors) == (130, "", "vibroimpact: interrupted\n")
+    code, out, errors = run("B2-G1-A3")
+    assert (code, out, errors) == (130, "", "vibroimpact: interrupted\n")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -241,12 +241,12 @@ def test_own_outputs_are_computed_printed_and_drawn(run, tmp_path):
     data = vi.load(tmp_path / "out/B2-G1-A3-sweep.nc")
     assert data["power"].attrs["units"] == "W"
     assert data["touch"].attrs["output"] == "mean(abs(contact) > 0)"
-    for given, message in (
+    for formula, message in (
         ("power", "--compute: 'power' is not a name with a formula"),
         ("power=velocity", "--compute['power']: 'velocity' is a time history"),
         ("power=max(velocty)", "--compute['power']: 'velocty' is neither"),
     ):
-        code, _, errors = run("B2-G1-A3", "--frequencies", "2Hz", "--compute", given)
+        code, _, errors = run("B2-G1-A3", "--frequencies", "2Hz", "--compute", formula)
         assert code == 2
         assert message in errors
     code, _, errors = run(*words, "--compute", power)

@@ -45,8 +45,8 @@ def told_in(tmp_path, words, encoding, process):
     return in_process(tmp_path, words, encoding)
 
 
-def check_columns(told):
-    lines = told.splitlines()
+def check_columns(text):
+    lines = text.splitlines()
     assert all(line == line.rstrip() for line in lines)
     table = lines[lines.index("Resonances") + 1 :]
     head, rows = table[0], table[1 : table.index("")]
@@ -62,16 +62,16 @@ def test_any_encoding(tmp_path, encoding):
         # ASCII lacks the most.
         process = sample(True, encoding == "ascii" and words is FEW)
         done = told_in(tmp_path, words, encoding, process)
-        told, errors = done.stdout.decode(encoding), done.stderr.decode(encoding)
+        out, errors = done.stdout.decode(encoding), done.stderr.decode(encoding)
         assert done.returncode == 0, errors
         assert "Traceback" not in errors
         if words is FEW:
-            check_columns(told)
+            check_columns(out)
         if words is FEW and encoding == "ascii":
-            assert "eta_a" in told
-            assert "A = 0.4903325 m/s^2 = 0.05 g" in told
-            assert "lambda = 19.4, delta0 = 0.2169, tau = 0.01" in told
-            assert "?" not in told
+            assert "eta_a" in out
+            assert "A = 0.4903325 m/s^2 = 0.05 g" in out
+            assert "lambda = 19.4, delta0 = 0.2169, tau = 0.01" in out
+            assert "?" not in out
     wrong = told_in(tmp_path, ["sweep", "B2-Gη-A3"], encoding, sample(True, encoding == "ascii"))
     assert (wrong.returncode, b"Traceback" in wrong.stderr) == (2, False)
 
@@ -138,9 +138,9 @@ NAME = "o\x1b[31m\x1b]0;x\x07\nut"
 @pytest.mark.skipif(os.name == "nt", reason="no such names of files")
 def test_names_of_files_steer_no_terminal(tmp_path, capsys):
     assert main([*FEW, "--output", str(tmp_path / NAME)]) == 0
-    told = capsys.readouterr()
-    assert told.out.count(r"o\x1b[31m\x1b]0;x\x07\nut/B2-G1-A3") == 3
-    assert "\x1b" not in told.out + told.err
+    output = capsys.readouterr()
+    assert output.out.count(r"o\x1b[31m\x1b]0;x\x07\nut/B2-G1-A3") == 3
+    assert "\x1b" not in output.out + output.err
 
 
 def test_a_file_that_fails_beneath(tmp_path, monkeypatch, capsys):

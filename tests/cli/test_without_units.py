@@ -77,9 +77,9 @@ def test_a_unit_of_an_option_makes_a_kilogram_of_1(study, tmp_path, capsys):
 def test_json_keeps_hertz_and_says_that_there_are_no_units(study, tmp_path, capsys):
     words = ("--frequency", "0.2", "--cycles", "5", "--json")
     assert main(["simulate", str(study), *words, "-o", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["oscillator"]["units"] == "none"
-    assert found["frequency"] == 0.2
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["oscillator"]["units"] == "none"
+    assert facts["frequency"] == 0.2
 
 
 def _none(tmp_path):
@@ -100,9 +100,9 @@ def _none(tmp_path):
 def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
     command, *options = words
     assert main([command, str(_none(tmp_path)), *options, "-o", str(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert "has a unit, but the rig has none" in told
-    assert len(told.strip().splitlines()) == 1
+    error = capsys.readouterr().err
+    assert "has a unit, but the rig has none" in error
+    assert len(error.strip().splitlines()) == 1
 
 
 @pytest.mark.parametrize("of", ["force", "displacement", "unbalance"])
@@ -125,8 +125,8 @@ def test_an_option_keeps_the_quantity_of_the_study(tmp_path, capsys):
     assert main(["simulate", str(path), *options, "-o", str(tmp_path)]) == 0
     printed = json.loads(capsys.readouterr().out)
     data = vi.load(printed["files"]["data"])
-    told = json.loads(data.attrs["parameters"])
-    assert (told["of"], told["amplitude"]) == ("force", 0.7)
+    parameters = json.loads(data.attrs["parameters"])
+    assert (parameters["of"], parameters["amplitude"]) == ("force", 0.7)
 
 
 @pytest.mark.parametrize(

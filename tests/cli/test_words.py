@@ -20,11 +20,11 @@ def refused(tmp_path, monkeypatch, capsys):
 
     def refused(*words: str) -> str:
         assert main(words) == 2
-        told = capsys.readouterr()
-        assert (told.out, told.err.count("\n")) == ("", 1)
-        assert told.err.startswith("vibroimpact: error: ")
-        assert "Traceback" not in told.err
-        return told.err.removeprefix("vibroimpact: error: ").rstrip("\n")
+        output = capsys.readouterr()
+        assert (output.out, output.err.count("\n")) == ("", 1)
+        assert output.err.startswith("vibroimpact: error: ")
+        assert "Traceback" not in output.err
+        return output.err.removeprefix("vibroimpact: error: ").rstrip("\n")
 
     return refused
 
@@ -92,9 +92,9 @@ def test_options_are_named_as_they_are_written(refused, words, begins):
     ],
 )
 def test_quantities_that_another_option_states(refused, words, advice):
-    told = refused("sweep", CASE, *words)
+    line = refused("sweep", CASE, *words)
     name = words[0].partition("=")[0]
-    assert told == f"Unknown option: {name}; {advice}; see --help"
+    assert line == f"Unknown option: {name}; {advice}; see --help"
 
 
 def test_only_options_of_the_command_are_recommended(refused):
@@ -102,8 +102,8 @@ def test_only_options_of_the_command_are_recommended(refused):
 
 
 def test_a_suggestion_ends_its_sentence(refused):
-    told = refused("sweep", CASE, "--directio", "forward")
-    assert told.endswith("Did you mean --direction? See --help")
+    line = refused("sweep", CASE, "--directio", "forward")
+    assert line.endswith("Did you mean --direction? See --help")
 
 
 def test_unused_words_are_told_plainly(refused):
@@ -138,8 +138,8 @@ def script(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HOME", str(home))
         assert main(["--install-completion", "--shell", "bash"]) == 0
-    found = [p for p in home.rglob("vibroimpact") if p.is_file()]
-    return next(path for path in found if "complete -F" in path.read_text())
+    files = [p for p in home.rglob("vibroimpact") if p.is_file()]
+    return next(path for path in files if "complete -F" in path.read_text())
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no bash is installed")

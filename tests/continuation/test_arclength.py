@@ -156,8 +156,8 @@ def test_a_zero_to_rounding(root):
         calls.append(x)
         return x
 
-    found, length = zero_within(0.0, 1.0, solved, lambda x: math.expm1(5.0 * (x - root)))
-    assert found == length == pytest.approx(root, abs=1e-14)
+    zero, length = zero_within(0.0, 1.0, solved, lambda x: math.expm1(5.0 * (x - root)))
+    assert zero == length == pytest.approx(root, abs=1e-14)
     assert len(calls) < 40
     assert zero_within(0.0, 1.0, lambda x: None, lambda x: x - 0.5) is None
 
@@ -177,14 +177,14 @@ def test_two_zeros_within_a_step(at, low, sign):
         return x
 
     mean = np.mean([function(x) for x in np.linspace(0.0, 1.0, 4001)])
-    found = between_zeros((function(0.0), function(1.0)), mean, 1.0, solved, function)
+    point = between_zeros((function(0.0), function(1.0)), mean, 1.0, solved, function)
     assert len(calls) <= 8
     if low < 0.0:
-        assert found is not None
-        assert sign * function(found[0]) < 0.0
-        assert found[1] == pytest.approx(at, abs=0.1)
+        assert point is not None
+        assert sign * function(point[0]) < 0.0
+        assert point[1] == pytest.approx(at, abs=0.1)
     else:
-        assert found is None
+        assert point is None
     assert between_zeros((1.0, 2.0), 1.5, 1.0, solved, function) is None
     assert between_zeros((1.0, 1.0), -1.0, 1.0, lambda x: None, function) is None
 

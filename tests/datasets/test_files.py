@@ -87,11 +87,11 @@ def test_what_is_not_ours_is_refused(tmp_path: Path) -> None:
 def refused(path: Path, why: str) -> None:
     with pytest.raises(vi.InputError) as caught:
         vi.load(path)
-    told = str(caught.value)
-    assert told.startswith(f"file: {str(path)!r}")
-    assert why in told
-    assert "; pass " in told or told.endswith("to read files of other programs")
-    assert "\n" not in told
+    message = str(caught.value)
+    assert message.startswith(f"file: {str(path)!r}")
+    assert why in message
+    assert "; pass " in message or message.endswith("to read files of other programs")
+    assert "\n" not in message
 
 
 def test_every_flipped_bit_is_noticed(tmp_path: Path) -> None:
@@ -235,23 +235,23 @@ def test_a_group_has_to_be_one_of_those_in_the_file(tmp_path: Path) -> None:
     for group in (None, "none", "forward branch", "forward", ""):
         with pytest.raises(vi.InputError) as caught:
             vi.load(path, group=group)
-        told = str(caught.value)
+        message = str(caught.value)
         wrong = f"{str(path)!r} has no group {group!r}; " if group is not None else "missing, but "
-        assert told.startswith(f"group: {wrong}")
-        assert str(path) in told
-        assert told.endswith("; pass one of forward_branch, 2.6Hz_free")
-        assert ("several groups" in told) is (group is None)
-        assert "\n" not in told
+        assert message.startswith(f"group: {wrong}")
+        assert str(path) in message
+        assert message.endswith("; pass one of forward_branch, 2.6Hz_free")
+        assert ("several groups" in message) is (group is None)
+        assert "\n" not in message
 
 
 def test_a_group_of_a_file_that_holds_one_dataset_is_refused(tmp_path: Path) -> None:
     path = vi.save(made("simulation"), tmp_path / "data.nc")
     with pytest.raises(vi.InputError) as caught:
         vi.load(path, group="forward_branch")
-    told = str(caught.value)
-    assert "forward_branch" in told
-    assert repr(str(path)) in told
-    assert "\n" not in told
+    message = str(caught.value)
+    assert "forward_branch" in message
+    assert repr(str(path)) in message
+    assert "\n" not in message
 
 
 def test_groups_that_are_damaged_or_not_ours_are_refused(tmp_path: Path) -> None:

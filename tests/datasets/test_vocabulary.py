@@ -42,5 +42,5 @@ def test_which_dims_a_variable_may_have(name: str, may: list[str], may_not: list
 
 
 def test_dims_are_declared_for_several_variables_at_once():
-    found = along(each(("", "point"), "exponent"), one=integer("a"), other=integer("b"))
-    assert [variable.dims for variable in found.values()] == [("exponent", "point exponent")] * 2
+    by_name = along(each(("", "point"), "exponent"), one=integer("a"), other=integer("b"))
+    assert [variable.dims for variable in by_name.values()] == [("exponent", "point exponent")] * 2

@@ -45,9 +45,9 @@ def test_sines_against_a_fine_sweep() -> None:
     moved = rig.system.replace(masses={**rig.system.masses, "roof": 200.0})
     fine = vi.sweep(vi.Rig(moved, SINE), np.linspace(0.7, 1.6, 901))
     for name in ("peak_displacement", "peak_acceleration"):
-        found, largest = data[name].values[0], fine[name].max(("direction", "frequency")).values
-        np.testing.assert_allclose(found, largest, rtol=2e-3)
-        assert (found > largest * (1.0 - 1e-4)).all()
+        peaks, largest = data[name].values[0], fine[name].max(("direction", "frequency")).values
+        np.testing.assert_allclose(peaks, largest, rtol=2e-3)
+        assert (peaks > largest * (1.0 - 1e-4)).all()
     at = fine["peak_displacement"].max("direction").sel(mass="roof").idxmax("frequency")
     place = data["displacement_frequency"].sel(mass="roof").item()
     assert place == pytest.approx(float(at), abs=3e-3)
@@ -63,12 +63,12 @@ def test_records_against_responses_one_by_one() -> None:
         moved = assembly.replace(
             stops={**assembly.stops, "right": wall}, links={**assembly.links, "storey": storey}
         )
-        found = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
+        responses = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
         here = data.sel({"stops.right.gap": gap, "links.storey.stiffness": 9e4})
         for name in ("peak_displacement", "displacement_max", "peak_acceleration", "peak_drift"):
-            middle = np.sort([one[name].values for one in found], axis=0)[1]
+            middle = np.sort([one[name].values for one in responses], axis=0)[1]
             np.testing.assert_allclose(here[name], middle, rtol=1e-10)
-        hits = sum(bool(one["impact_count"].any()) for one in found) / len(found)
+        hits = sum(bool(one["impact_count"].any()) for one in responses) / len(responses)
         assert float(here["hitting"]) == pytest.approx(hits)
 
 
@@ -140,12 +140,12 @@ def test_a_limit_of_one_part() -> None:
     data = vi.design_chart(frame(), VARY, records=RECORDS)
     drift = data["peak_drift"].sel(link="isolator")
     middle = float(drift.median())
-    found = vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak-drift.isolator": middle})
-    np.testing.assert_array_equal(found["within_limits"], drift <= middle)
-    assert 0 < int(found["within_limits"].sum()) < found["within_limits"].size
-    excess, *others = excesses(found)
+    chart = vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak-drift.isolator": middle})
+    np.testing.assert_array_equal(chart["within_limits"], drift <= middle)
+    assert 0 < int(chart["within_limits"].sum()) < chart["within_limits"].size
+    excess, *others = excesses(chart)
     assert not others
-    np.testing.assert_array_equal(excess <= 0.0, found["within_limits"])
+    np.testing.assert_array_equal(excess <= 0.0, chart["within_limits"])
     with pytest.raises(
         vi.InputError, match=r"limits: 'peak_drift\.attic' is unknown; .* peak_drift\.storey"
     ):

@@ -90,13 +90,13 @@ def test_records_against_responses_one_by_one(name: str) -> None:
         moved = rig.replace(
             **{side: getattr(rig, side).replace(gap=gap) for side in ("right", "left")}
         )
-        found = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
+        responses = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
         for peak in PEAKS:
-            middle = np.sort([one[peak].values for one in found], axis=0)[1]
+            middle = np.sort([one[peak].values for one in responses], axis=0)[1]
             np.testing.assert_allclose(data[peak].sel(gap=gap), middle, rtol=1e-10)
-        deep = sorted(max(float(one["peak_displacement"]) - gap, 0.0) for one in found)[1]
+        deep = sorted(max(float(one["peak_displacement"]) - gap, 0.0) for one in responses)[1]
         assert float(data["penetration"].sel(gap=gap)) == pytest.approx(deep, rel=1e-9)
-        hits = sum(bool(one["impact_count"].any()) for one in found) / 3.0
+        hits = sum(bool(one["impact_count"].any()) for one in responses) / 3.0
         assert float(data["hitting"].sel(gap=gap)) == pytest.approx(hits)
     largest = vi.design_chart(rig, {"gap": gaps}, records=RECORDS)
     assert (largest["peak_displacement"] >= data["peak_displacement"]).all()
@@ -216,10 +216,11 @@ def test_what_has_no_bound_is_infinite() -> None:
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
-    given = {"vary": {"gap": [0.1]}, **arguments}
+    keywords = {"vary": {"gap": [0.1]}, **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
         vi.design_chart(
-            given.pop("rig", None) or vi.Rig(BUILDING, given.pop("shaking", "0.1 g")), **given
+            keywords.pop("rig", None) or vi.Rig(BUILDING, keywords.pop("shaking", "0.1 g")),
+            **keywords,
         )
 
 

@@ -31,20 +31,20 @@ def _grid(shaking):
 @pytest.mark.parametrize("limits", [{}, {"peak_force": "900 N"}, {"penetration": "8 mm"}])
 def test_no_node_of_a_grid_is_better(limits: dict) -> None:
     grid = _grid(RECORDS)
-    found = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
+    design = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
     kept = grid["peak_acceleration"]
     for name, limit in {"peak_force": 900.0, "penetration": 8e-3}.items():
         if name in limits:
-            assert (found[name] <= limit).all()
+            assert (design[name] <= limit).all()
             kept = kept.where(over_stops(grid[name]) <= limit)
     best = float(kept.min())
-    assert float(found["peak_acceleration"]) <= best * (1.0 + 1e-3)
+    assert float(design["peak_acceleration"]) <= best * (1.0 + 1e-3)
     # What is said of the design is what it does.
     there = vi.design_chart(
-        RIG, {name: [float(found[name])] for name in RANGES}, records=RECORDS
+        RIG, {name: [float(design[name])] for name in RANGES}, records=RECORDS
     ).squeeze(drop=True)
     for name in ("peak_acceleration", "peak_displacement", "peak_force", "penetration"):
-        np.testing.assert_allclose(there[name], found[name], rtol=1e-12)
+        np.testing.assert_allclose(there[name], design[name], rtol=1e-12)
 
 
 def test_of_sines() -> None:
@@ -52,11 +52,11 @@ def test_of_sines() -> None:
     ranges = {"stops.damping": RANGES["stops.damping"]}
     values = np.geomspace(*RANGES["stops.damping"], 41)
     grid = vi.design_chart(vi.Rig(RIG, "0.05 g"), {"stops.damping": values})["peak_acceleration"]
-    found = vi.least_acceleration(vi.Rig(RIG, "0.05 g"), ranges)
+    design = vi.least_acceleration(vi.Rig(RIG, "0.05 g"), ranges)
     least = int(grid.values.argmin())
     assert 0 < least < 40
-    assert float(found["peak_acceleration"]) == pytest.approx(float(grid.min()), rel=2e-3)
-    assert values[least - 1] < float(found["stops.damping"]) < values[least + 1]
+    assert float(design["peak_acceleration"]) == pytest.approx(float(grid.min()), rel=2e-3)
+    assert values[least - 1] < float(design["stops.damping"]) < values[least + 1]
 
 
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
@@ -66,24 +66,24 @@ def test_a_wide_gap_leaves_nothing_to_choose() -> None:
         "design stays below the limit of peak force: 0 N of 1 MN"
     )
     with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
-        found = vi.least_acceleration(
+        design = vi.least_acceleration(
             RIG, records=RECORDS, gap=need + 1e-9, limits={"peak_force": "1 MN"}
         )
-    assert found.attrs["notes"].splitlines()[:2] == untouched.split("; ")
+    assert design.attrs["notes"].splitlines()[:2] == untouched.split("; ")
     free = max(
         float(vi.seismic_response(vi.Rig(RIG.without_bumpers(), one))["peak_acceleration"])
         for one in RECORDS
     )
-    assert float(found["hitting"]) == 0.0
-    assert float(found["peak_acceleration"]) == pytest.approx(free, rel=1e-10)
+    assert float(design["hitting"]) == 0.0
+    assert float(design["peak_acceleration"]) == pytest.approx(free, rel=1e-10)
 
 
 def test_what_binds_and_what_does_not_is_noted() -> None:
     """A limit that is reached is not noted, one that is not is, and so is the end of a range."""
     limits = {"penetration": "2 mm", "peak_force": "1 MN"}
-    found = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
-    assert float(found["penetration"]) == pytest.approx(2e-3, rel=1e-2)
-    (note,) = found.attrs["notes"].splitlines()
+    design = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
+    assert float(design["penetration"]) == pytest.approx(2e-3, rel=1e-2)
+    (note,) = design.attrs["notes"].splitlines()
     assert note.startswith("the design stays below the limit of peak force: ")
     assert note.endswith(" N of 1 MN")
     stiff = {"stops.stiffness": (2e6, 3e6)}
@@ -123,6 +123,8 @@ def test_it_is_repeatable() -> None:
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
-    given = {"oscillator": RIG, "shaking": RECORDS[0], **arguments}
+    keywords = {"oscillator": RIG, "shaking": RECORDS[0], **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.least_acceleration(given.pop("oscillator"), records=given.pop("shaking"), **given)
+        vi.least_acceleration(
+            keywords.pop("oscillator"), records=keywords.pop("shaking"), **keywords
+        )

@@ -31,8 +31,8 @@ _point = st.tuples(_few, _few) | st.just((np.nan, 1.0)) | st.just((0.0, np.inf))
 @given(st.lists(_point, max_size=40))
 def test_against_every_pair(points) -> None:
     first, second = np.array(points).reshape(-1, 2).T
-    found = non_dominated(first, second)
-    assert found.tolist() == _by_pairs(first.tolist(), second.tolist())
+    front = non_dominated(first, second)
+    assert front.tolist() == _by_pairs(first.tolist(), second.tolist())
 
 
 def test_what_agrees_up_to_rounding_is_one() -> None:

@@ -28,7 +28,7 @@ def _bisected(hits) -> float:
 def test_of_a_record_by_bisection(name: str) -> None:
     record = noise(5, count=200)
     rig = RIGS[name]
-    found = vi.required_gap(rig, records=record)
+    need = vi.required_gap(rig, records=record)
     for side in ("right", "left"):
 
         def hits(gap: float, side: str = side) -> bool:
@@ -37,18 +37,18 @@ def test_of_a_record_by_bisection(name: str) -> None:
             motion = vi.simulate(vi.Rig(one, record), samples=1, tail="4 s")
             return bool(motion.sizes["event"])
 
-        assert float(found["required_gap"].sel(stop=side)) == pytest.approx(
+        assert float(need["required_gap"].sel(stop=side)) == pytest.approx(
             _bisected(hits), rel=1e-6
         )
-    both = [float(found["required_gap"].sel(stop=side)) for side in ("right", "left")]
-    assert float(found["common_gap"]) == max(both)
+    both = [float(need["required_gap"].sel(stop=side)) for side in ("right", "left")]
+    assert float(need["common_gap"]) == max(both)
 
 
 def test_of_sines_by_bisection() -> None:
     """Steady motion at the worst frequency, shifted by a constant force."""
     rig = RIG.replace(force=1.5)
-    found = vi.required_gap(vi.Rig(rig, "0.1 g"))
-    at = float(found["displacement_frequency"])
+    need = vi.required_gap(vi.Rig(rig, "0.1 g"))
+    at = float(need["displacement_frequency"])
     xi, natural = rig.damping_ratio, rig.natural_frequency
     assert at == pytest.approx(natural * math.sqrt(1.0 - 2.0 * xi**2))
     for side in ("right", "left"):
@@ -58,7 +58,7 @@ def test_of_sines_by_bisection() -> None:
             motion = vi.simulate(vi.Rig(one, vi.Harmonic("0.1 g", at)), 200, samples=1)
             return bool((motion["event_cycle"] > 190).any())
 
-        assert float(found["required_gap"].sel(stop=side)) == pytest.approx(
+        assert float(need["required_gap"].sel(stop=side)) == pytest.approx(
             _bisected(hits), rel=1e-6
         )
 
@@ -69,12 +69,12 @@ def test_of_sines_by_bisection() -> None:
 def test_no_frequency_needs_more(amplitude: str, ratio: float, ends) -> None:
     """Against the excursions of free flight on a fine grid of the range."""
     rig = vi.Oscillator(2.0, vi.Isolator.from_period(2.0, 1.4, ratio))
-    found = vi.required_gap(vi.Rig(rig, amplitude), ends and {"frequency": ends})
+    need = vi.required_gap(vi.Rig(rig, amplitude), ends and {"frequency": ends})
     grid = np.geomspace(*(ends or (0.02, 60.0)), 4001)
     sweep = vi.sweep(vi.Rig(rig, amplitude), grid[::4], "forward", max_cycles=1, window=1)
     most = 0.5 * float(sweep["free_displacement_excursion"].max())
-    assert float(found["common_gap"]) >= most * (1.0 - 1e-12)
-    assert float(found["common_gap"]) == pytest.approx(most, rel=2e-2)
+    assert float(need["common_gap"]) >= most * (1.0 - 1e-12)
+    assert float(need["common_gap"]) == pytest.approx(most, rel=2e-2)
 
 
 @pytest.mark.parametrize(

@@ -29,8 +29,8 @@ def test_opensees() -> None:
         "benchmarks.peers.opensees_peer", reason="OpenSeesPy is absent", exc_type=ImportError
     )
     script: dict[str, Any] = {}
-    found = blocks("opensees.md")
-    for (kind, code), (_, shown) in zip(found[::2], found[1::2], strict=True):
+    parts = blocks("opensees.md")
+    for (kind, code), (_, shown) in zip(parts[::2], parts[1::2], strict=True):
         with contextlib.redirect_stdout(io.StringIO()) as out:
             exec(code, script)
         assert kind in ("python", "py")
@@ -58,9 +58,9 @@ def test_octave_runs_the_file_for_matlab(tmp_path: Path) -> None:
         text=True,
     )
     assert done.stdout == shown
-    exact, found = (re.findall(r"[\d.]+", text) for text in (ours, shown))
-    assert found[2] == exact[2]
-    assert float(found[0]) == pytest.approx(float(exact[0]), rel=5e-4)
+    exact, numbers = (re.findall(r"[\d.]+", text) for text in (ours, shown))
+    assert numbers[2] == exact[2]
+    assert float(numbers[0]) == pytest.approx(float(exact[0]), rel=5e-4)
 
 
 def test_the_equations_for_auto_are_those_that_are_run() -> None:

@@ -14,27 +14,27 @@ LISTED = re.compile(r"^\.\. currentmodule:: (\S+)\n\n\.\. autosummary::\n((?: .*
 
 
 def test_every_public_name_occurs_once():
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for page in (ROOT / "docs/reference").glob("*.md"):
         for module, names in LISTED.findall(page.read_text(encoding="utf-8")):
-            found.update(f"{module}.{name}" for name in re.findall(r"^   (\w+)$", names, re.M))
+            counts.update(f"{module}.{name}" for name in re.findall(r"^   (\w+)$", names, re.M))
     public = {f"vibroimpact.{name}" for name in vi.__all__}
     public -= {"vibroimpact.__version__", "vibroimpact.laboratory"}  # the latter is a module
     public |= {f"vibroimpact.model.laboratory.{name}" for name in ("case", "campaign")}
     public |= {f"vibroimpact.figures.{name}" for name in figures.__all__}
-    assert {name: count for name, count in found.items() if count > 1} == {}
-    assert public == set(found)
+    assert {name: count for name, count in counts.items() if count > 1} == {}
+    assert public == set(counts)
 
 
 def test_the_table_of_parameters_states_units_bounds_and_laws():
-    found = {path: cells for path, *cells in rows()}
-    assert found["gap"][1:] == ["m", "any", "every stop"]
-    assert found["isolator.cubic"][1:] == ["N m-3", "any", "PolynomialIsolator"]
-    assert found["stops.restitution"][2:] == [
+    table = {path: cells for path, *cells in rows()}
+    assert table["gap"][1:] == ["m", "any", "every stop"]
+    assert table["isolator.cubic"][1:] == ["N m-3", "any", "PolynomialIsolator"]
+    assert table["stops.restitution"][2:] == [
         "0 to 1",
         "JankowskiBumper, PowerBumper, RigidStop",
     ]
-    assert found["gap_ratio"][0] == "gap ratio of each side (G / u_max)"
+    assert table["gap_ratio"][0] == "gap ratio of each side (G / u_max)"
     assert all(
-        cells[-1] for path, cells in found.items() if path.startswith(("isolator.", "stops."))
+        cells[-1] for path, cells in table.items() if path.startswith(("isolator.", "stops."))
     )

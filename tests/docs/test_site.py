@@ -67,6 +67,6 @@ def test_a_page_that_is_wider_than_a_telephone_is_found(tmp_path):
         (tmp_path / name).write_text(page.format(300))
     assert checked() == (0, "no page is wider than a telephone\n")
     (tmp_path / "page.html").write_text(page.format(900))
-    code, found = checked()
+    code, report = checked()
     assert code == 1
-    assert re.fullmatch(r"page\.html: 9\d\d pixels wide on a screen of 390\n", found)
+    assert re.fullmatch(r"page\.html: 9\d\d pixels wide on a screen of 390\n", report)

@@ -12,12 +12,12 @@ def avoided(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "docs")
     from check_words import avoided
 
-    def found(text, name="page.md"):
+    def uses(text, name="page.md"):
         path = tmp_path / name
         path.write_text(text, encoding="utf-8")
         return [use.removeprefix(f"{path}:") for use in avoided(path)]
 
-    return found
+    return uses
 
 
 @pytest.mark.parametrize(

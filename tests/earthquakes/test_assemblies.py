@@ -67,7 +67,7 @@ def along(
 
 def test_peaks_without_contact_are_those_of_modal_superposition() -> None:
     tower = vi.chain([3.0, 2.0, 1.5], [900.0, 700.0, 400.0], damping_ratio=0.03)
-    found = vi.seismic_response(vi.Rig(tower, QUAKE), tail=0.0)
+    response = vi.seismic_response(vi.Rig(tower, QUAKE), tail=0.0)
     modes = vi.modes(tower)
     shapes = modes["mode_shape"].values * modes["participation_factor"].values[:, np.newaxis]
     omegas = 2.0 * math.pi * modes["natural_frequency"].values
@@ -100,18 +100,18 @@ def test_peaks_without_contact_are_those_of_modal_superposition() -> None:
                 ).fun
                 for line in (top - 1, top)
             )
-            assert found[name].values[i] == pytest.approx(peak, rel=1e-12)
+            assert response[name].values[i] == pytest.approx(peak, rel=1e-12)
 
 
 def test_peaks_by_tables_are_those_of_whole_phases() -> None:
     """`demands` leaves out what widens no range, `seismic_response` measures every stretch."""
     for system in (neighbours(), vi.chain([3.0] * 4, [900.0] * 4, 0.02)):
         peaks = vi.seismic_response(vi.Rig(system, QUAKE), tail=1.0)
-        found = vi.demands(system, QUAKE, tail=1.0, threads=1).isel(record=0, scale=0)
+        demands = vi.demands(system, QUAKE, tail=1.0, threads=1).isel(record=0, scale=0)
         for name in ("peak_displacement", "peak_acceleration", "peak_drift", "displacement_min",
                      "drift_max", "impulse", "peak_force", "peak_transmitted_force"):  # fmt: skip
-            np.testing.assert_allclose(found[name], peaks[name], rtol=1e-12)
-        assert (found["impact_count"] == peaks["impact_count"]).all()
+            np.testing.assert_allclose(demands[name], peaks[name], rtol=1e-12)
+        assert (demands["impact_count"] == peaks["impact_count"]).all()
 
 
 def test_demands_are_those_of_the_oscillator() -> None:
@@ -146,15 +146,15 @@ def test_demands_are_those_of_the_oscillator() -> None:
 
 def test_demands_of_neighbours_have_fragilities_by_stop() -> None:
     records = [QUAKE.scaled(factor) for factor in (0.5, 0.8, 1.0, 1.3, 1.7)]
-    found = vi.demands(neighbours(), records, np.geomspace(0.05, 1.5, 6))
-    assert found["impact_count"].sizes == {"record": 5, "scale": 6, "stop": 2}
+    demands = vi.demands(neighbours(), records, np.geomspace(0.05, 1.5, 6))
+    assert demands["impact_count"].sizes == {"record": 5, "scale": 6, "stop": 2}
     alone = vi.seismic_response(vi.Rig(neighbours(), records[2].scaled(1.5)))
     for name in ("peak_drift", "peak_displacement", "impulse"):
-        np.testing.assert_allclose(found[name].values[2, -1], alone[name].values, rtol=1e-11)
-    share = vi.exceedance(found, "impact_count.between")["probability"]
+        np.testing.assert_allclose(demands[name].values[2, -1], alone[name].values, rtol=1e-11)
+    share = vi.exceedance(demands, "impact_count.between")["probability"]
     assert share.dims == ("scale",)
-    one_link = vi.fragility(found, "peak_drift.low", "12 mm")
-    fitted = vi.fragility(found, "peak_drift", "12 mm")
+    one_link = vi.fragility(demands, "peak_drift.low", "12 mm")
+    fitted = vi.fragility(demands, "peak_drift", "12 mm")
     assert fitted["median_capacity"].dims == ("link",)
     assert one_link["median_capacity"].item() == fitted["median_capacity"].sel(link="low").item()
     assert np.isfinite(fitted["median_capacity"]).any()
@@ -219,8 +219,8 @@ def test_required_gaps_for_records() -> None:
             law = neighbours().stops[stop].law.replace(gap=factor * float(gap.sel(stop=stop)))
             link = neighbours().stops[stop]
             alone = neighbours().replace(stops={stop: vi.Link(link.left, link.right, law)})
-            found = vi.seismic_response(vi.Rig(alone, QUAKE))
-            assert (found["impact_count"].item() > 0) == met
+            response = vi.seismic_response(vi.Rig(alone, QUAKE))
+            assert (response["impact_count"].item() > 0) == met
 
 
 def test_neighbours_of_equal_modes_never_meet() -> None:
@@ -234,9 +234,9 @@ def test_neighbours_of_equal_modes_never_meet() -> None:
         },
         {"between": vi.Link("a", "b", vi.Bumper(1e4, 10.0, 0.01))},
     )
-    for given in ({"records": QUAKE}, {}):
-        rig = pair if given else vi.Rig(pair, vi.Harmonic("1 m/s2", 1.0))
-        gap = float(vi.required_gap(rig, **given)["required_gap"][0])
+    for keywords in ({"records": QUAKE}, {}):
+        rig = pair if keywords else vi.Rig(pair, vi.Harmonic("1 m/s2", 1.0))
+        gap = float(vi.required_gap(rig, **keywords)["required_gap"][0])
         assert abs(gap) < 1e-14
 
 

@@ -127,10 +127,10 @@ def test_what_was_stopped_is_completed_to_the_same(tmp_path) -> None:
     how = {"vary": {"gap": [0.02, 0.03, 0.05]}, "block": 2}
     whole = vi.demands(*arguments, **how)
     store = tmp_path / "demands"
-    told: list[int] = []
+    steps: list[int] = []
 
     def kill(done: int, total: int) -> None:
-        told.append(done)
+        steps.append(done)
         if done > total // 2:
             raise _KilledError
 
@@ -216,6 +216,6 @@ def test_it_is_saved_and_read(tmp_path) -> None:
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
-    given = {"rig": RIGS["bumpers"], "records": RECORDS["a"], **arguments}
+    keywords = {"rig": RIGS["bumpers"], "records": RECORDS["a"], **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.demands(**given)
+        vi.demands(**keywords)

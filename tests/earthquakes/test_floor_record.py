@@ -35,12 +35,12 @@ def test_the_spectrum_converges_to_the_second_order(name: str) -> None:
     """Halving the step quarters the error, jumps and impacts included."""
     rig = RIGS[name]
     periods = [0.3, 0.8, 1.7]
-    found = []
+    spectra = []
     for samples in (4, 8, 16, 128):
         motion = vi.simulate(vi.Rig(rig, RECORD), tail=2.0, samples=samples)
         spectrum = vi.response_spectrum(vi.floor_record(motion), periods, 0.05)
-        found.append(spectrum["spectral_displacement"].values)
-    *coarse, fine = found
+        spectra.append(spectrum["spectral_displacement"].values)
+    *coarse, fine = spectra
     errors = [np.abs(one / fine - 1.0).max() for one in coarse]
     assert errors[0] < 0.02
     assert errors[2] < errors[0] / 8.0

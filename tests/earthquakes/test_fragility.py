@@ -22,11 +22,13 @@ SCALES = np.linspace(0.15, 3.0, 12)
 
 def test_the_curve_of_a_large_suite_is_the_known_one() -> None:
     data = lognormal(np.random.default_rng(2), 3000, SCALES, BETA)
-    found = vi.fragility(data, "peak_displacement", "1000 mm")
-    assert float(found["median_capacity"]) == pytest.approx(1.0, abs=0.03)
-    assert float(found["dispersion"]) == pytest.approx(BETA, abs=0.03)
-    assert found["probability"].values == pytest.approx(found["fitted_probability"], abs=0.05)
-    assert found["fitted_probability_bound"].dims == ("bound", "scale")
+    fragility = vi.fragility(data, "peak_displacement", "1000 mm")
+    assert float(fragility["median_capacity"]) == pytest.approx(1.0, abs=0.03)
+    assert float(fragility["dispersion"]) == pytest.approx(BETA, abs=0.03)
+    assert fragility["probability"].values == pytest.approx(
+        fragility["fitted_probability"], abs=0.05
+    )
+    assert fragility["fitted_probability_bound"].dims == ("bound", "scale")
 
 
 def test_the_likelihood_is_largest_there() -> None:
@@ -93,8 +95,8 @@ def test_of_capacities_known_exactly_the_intervals_are_the_classical_ones() -> N
     for confidence in (0.5, 0.9, 0.99):
         shares = np.array([0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence])
         student = mean + spread / math.sqrt(count) * stats.t.ppf(shares, count - 1)
-        found = np.log(curves.median_range(confidence))
-        assert found == pytest.approx(student, abs=0.01 * np.ptp(student))
+        bounds = np.log(curves.median_range(confidence))
+        assert bounds == pytest.approx(student, abs=0.01 * np.ptp(student))
         chi = spread * np.sqrt((count - 1) / stats.chi2.ppf(shares[::-1], count - 1))
         assert curves.dispersion_range(confidence) == pytest.approx(chi, rel=0.01)
     for x in (-1.5, -0.4, 0.2, 1.0):
@@ -111,14 +113,14 @@ def test_a_band_rises_with_the_level_and_is_narrow_where_no_record_exceeds() -> 
     rng = np.random.default_rng(0)
     scales = np.linspace(0.15, 2.2, 15)
     for records in (5, 7, 7, 7, 12):
-        found = vi.fragility(lognormal(rng, records, scales, BETA), "peak_displacement", 1.0)
-        low, high = found["fitted_probability_bound"].values
+        fragility = vi.fragility(lognormal(rng, records, scales, BETA), "peak_displacement", 1.0)
+        low, high = fragility["fitted_probability_bound"].values
         assert (np.diff(low) >= 0.0).all()
         assert (np.diff(high) >= 0.0).all()
-        assert (low <= found["fitted_probability"]).all()
-        assert (found["fitted_probability"] <= high).all()
+        assert (low <= fragility["fitted_probability"]).all()
+        assert (fragility["fitted_probability"] <= high).all()
         # Without any curve: so large a share shows in none of the records once in twenty times.
-        none = found["exceeding"].values == 0
+        none = fragility["exceeding"].values == 0
         assert none.any()
         assert (high[none] < 1.0 - 0.05 ** (1.0 / records)).all()
 
@@ -175,21 +177,21 @@ def test_without_overlap_there_is_no_curve() -> None:
         RuntimeWarning,
         match=r"^fragility: there is no interval, because .*: lower and higher s",
     ):
-        found = vi.fragility(lone, "peak_displacement", 1.0)
-    assert found.attrs["unbounded"].endswith(
+        fragility = vi.fragility(lone, "peak_displacement", 1.0)
+    assert fragility.attrs["unbounded"].endswith(
         "to get an interval, pass to demands: lower and higher scales"
     )
-    assert found["median_capacity_bound"].values.tolist() == [0.0, np.inf]
-    assert found["dispersion_bound"].values.tolist() == [0.0, np.inf]
-    assert found["fitted_probability_bound"].values.tolist() == [[0.0] * 4, [1.0] * 4]
+    assert fragility["median_capacity_bound"].values.tolist() == [0.0, np.inf]
+    assert fragility["dispersion_bound"].values.tolist() == [0.0, np.inf]
+    assert fragility["fitted_probability_bound"].values.tolist() == [[0.0] * 4, [1.0] * 4]
 
 
 def test_what_would_bound_an_interval_is_told_by_curve() -> None:
     """Of three gaps: levels end too early, or begin too late, or both."""
     data = _gaps((2.0, *(9.0,) * 4), (*(0.0,) * 4, 3.0), (0.0, 0.0, 3.0, 9.0, 9.0))
     with pytest.warns(RuntimeWarning, match="^fragility: there is no interval"):
-        told = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
-    assert told == (
+        note = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
+    assert note == (
         "there is no interval, because fewer than two records begin to exceed the limit within "
         "the scales; to get an interval, pass to demands: higher scales for gap 200 mm; lower "
         "scales for gap 300 mm; lower and higher scales for gap 400 mm"
@@ -214,9 +216,9 @@ def test_which_of_several_have_no_curve_is_told() -> None:
     """As of one alone, which raises: levels too coarse, or all below or above."""
     fine = (1.0, 2.0, 3.0, 4.0, 2.0, 3.0)
     data = _gaps((2.0, 3.0, 3.0, 3.0, 3.0, 3.0), fine, (9.0,) * 6, (0.0,) * 6, (3.0,) * 6)
-    with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as told:
-        found = vi.fragility(data, "peak_displacement", 1.0)
-    assert len(told) == 1
+    with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as notes:
+        fragility = vi.fragility(data, "peak_displacement", 1.0)
+    assert len(notes) == 1
     none = "at fewer than two scales, some records are above the limit and others are not, "
     reasons = {
         0.2: none + "so pass finer scales between 1 and 3 to demands",
@@ -224,20 +226,20 @@ def test_which_of_several_have_no_curve_is_told() -> None:
         0.5: "all records are above the limit at every scale, so pass lower scales to demands",
         0.6: none + "so pass finer scales between 2 and 3 to demands",
     }
-    assert found.attrs["undetermined"] == "; ".join(
+    assert fragility.attrs["undetermined"] == "; ".join(
         f"no curve for gap {1e3 * gap:g} mm: {why}" for gap, why in reasons.items()
     )
-    assert str(told[0].message) == f"fragility: {found.attrs['undetermined']}"
+    assert str(notes[0].message) == f"fragility: {fragility.attrs['undetermined']}"
     for i, gap in enumerate(data["gap"].values):
         lone = data.isel(gap=i, drop=True)
         if round(float(gap), 1) in reasons:
-            assert np.isnan(found["median_capacity"][i])
+            assert np.isnan(fragility["median_capacity"][i])
             with pytest.raises(vi.InputError) as refused:
                 vi.fragility(lone, "peak_displacement", 1.0)
             assert str(refused.value) == f"limit: 1.0; {reasons[round(float(gap), 1)]}"
         else:
             one = vi.fragility(lone, "peak_displacement", 1.0)
-            assert float(one["median_capacity"]) == float(found["median_capacity"][i])
+            assert float(one["median_capacity"]) == float(fragility["median_capacity"][i])
             assert "undetermined" not in one.attrs
     with pytest.warns(RuntimeWarning, match=r"; and 4 more curves$"):
         vi.fragility(_gaps(fine, *[(3.0,) * 6] * 9), "peak_displacement", 1.0)

@@ -20,62 +20,62 @@ SIDES = {"right": 1, "left": -1}
 def test_every_number_is_that_of_the_whole_motion(name: str) -> None:
     """The engine's one pass against samples, events, contacts and totals of a time history."""
     rig = RIGS[name]
-    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
-    assert found["status"] == 0
-    assert int(found["status"]) == 0
+    response = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
+    assert response["status"] == 0
+    assert int(response["status"]) == 0
     motion = vi.simulate(vi.Rig(rig, RECORD), tail=3.0, samples=50)
     whole = vi.totals(motion)
     u, a = motion["displacement"].values, motion["acceleration"].values
     for side, sign in SIDES.items():
-        peak = float(sign * found["displacement_max" if side == "right" else "displacement_min"])
+        peak = float(sign * response["displacement_max" if side == "right" else "displacement_min"])
         samples = float((sign * u).max())
         assert -1e-12 <= peak - samples <= 1e-3 * abs(peak)
-    assert float(found["displacement_max"]) == pytest.approx(
+    assert float(response["displacement_max"]) == pytest.approx(
         float(whole["displacement_max"]), rel=1e-12
     )
-    assert -float(found["displacement_min"]) == pytest.approx(
+    assert -float(response["displacement_min"]) == pytest.approx(
         -float(whole["displacement_min"]), rel=1e-12
     )
     largest = max(float(whole["acceleration_max"]), -float(whole["acceleration_min"]))
-    assert float(found["peak_acceleration"]) == pytest.approx(largest, rel=1e-12)
-    assert float(found["peak_acceleration"]) >= np.abs(a).max() - 1e-12
+    assert float(response["peak_acceleration"]) == pytest.approx(largest, rel=1e-12)
+    assert float(response["peak_acceleration"]) >= np.abs(a).max() - 1e-12
     for key in ("total_supplied", "total_isolator", "total_bumpers"):
         size = float(whole["total_supplied"])
-        assert float(found[key]) == pytest.approx(float(whole[key]), rel=1e-9, abs=1e-9 * size)
+        assert float(response[key]) == pytest.approx(float(whole[key]), rel=1e-9, abs=1e-9 * size)
     begun = motion["event_contact"].values >= 1
-    for side in found["stop"].values:
+    for side in response["stop"].values:
         mine = begun & (motion["event_stop"].values == side)
-        assert int(found["impact_count"].sel(stop=side)) == mine.sum()
-    assert int(found["impact_count"].sum()) > 4
-    assert float(found["peak_displacement"]) == max(
-        float(found["displacement_max"]), -float(found["displacement_min"])
+        assert int(response["impact_count"].sel(stop=side)) == mine.sum()
+    assert int(response["impact_count"].sum()) > 4
+    assert float(response["peak_displacement"]) == max(
+        float(response["displacement_max"]), -float(response["displacement_min"])
     )
 
 
 @pytest.mark.parametrize("name", ["bumpers", "elastic", "bilinear", "curved"])
 def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
     rig = RIGS[name]
-    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
+    response = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
     log = vi.contacts(vi.simulate(vi.Rig(rig, RECORD), tail=3.0))
-    for side in found["stop"].values:
+    for side in response["stop"].values:
         mine = log["contact_stop"].values == side
         force = log["contact_peak_force"].values[mine].max(initial=0.0)
         impulse = log["contact_impulse"].values[mine].sum()
-        assert float(found["peak_force"].sel(stop=side)) == pytest.approx(force, rel=1e-11)
-        assert float(found["impulse"].sel(stop=side)) == pytest.approx(
+        assert float(response["peak_force"].sel(stop=side)) == pytest.approx(force, rel=1e-11)
+        assert float(response["impulse"].sel(stop=side)) == pytest.approx(
             impulse, rel=1e-11, abs=1e-12
         )
-    assert float(found["peak_force"].max()) > 1.0
+    assert float(response["peak_force"].max()) > 1.0
 
 
 def test_a_rigid_stop_has_an_impulse_and_an_infinite_force() -> None:
     rig = RIGS["walls"]
-    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
+    response = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
     log = vi.contacts(vi.simulate(vi.Rig(rig, RECORD), tail=3.0))
     for side in SIDES:
         impulse = log["contact_impulse"].values[log["contact_stop"].values == side].sum()
-        assert float(found["impulse"].sel(stop=side)) == pytest.approx(impulse, rel=1e-9)
-        assert math.isinf(found["peak_force"].sel(stop=side))
+        assert float(response["impulse"].sel(stop=side)) == pytest.approx(impulse, rel=1e-9)
+        assert math.isinf(response["peak_force"].sel(stop=side))
     # What never touches it presses nothing.
     quiet = vi.seismic_response(vi.Rig(rig, RECORD.scaled(1e-3)))
     for name in ("peak_force", "impulse", "impact_count"):
@@ -103,13 +103,13 @@ def test_a_linear_rig_without_stops_is_an_oscillator_of_the_response_spectrum(
     omega = math.tau / period
     rig = vi.Oscillator(3.0, vi.Isolator(3.0 * omega**2, 6.0 * damping * omega))
     cut = RECORD.cut(0.0, 3.0)  # which ends in the middle of the strongest shaking
-    found = vi.seismic_response(vi.Rig(rig, cut))
+    response = vi.seismic_response(vi.Rig(rig, cut))
     spectrum = vi.response_spectrum(cut, period, damping)
     for key, name in (
         ("peak_displacement", "spectral_displacement"),
         ("peak_acceleration", "spectral_acceleration"),
     ):
-        assert float(found[key]) == pytest.approx(float(spectrum[name]), rel=1e-11)
+        assert float(response[key]) == pytest.approx(float(spectrum[name]), rel=1e-11)
 
 
 def test_a_scale_is_a_record_that_was_scaled() -> None:
@@ -122,42 +122,44 @@ def test_a_scale_is_a_record_that_was_scaled() -> None:
         for k, factor in enumerate(factors.tolist()):
             alone = vi.seismic_response(vi.Rig(rig, RECORD.scaled(factor)))
             for name, values in together.items():
-                found = values[0, k]
+                value = values[0, k]
                 if has_stops(name):
-                    found = by_stop(rig, found)
-                np.testing.assert_allclose(found, alone[name], rtol=1e-11, atol=1e-13)
+                    value = by_stop(rig, value)
+                np.testing.assert_allclose(value, alone[name], rtol=1e-11, atol=1e-13)
 
 
 def test_where_an_elastic_isolator_rests() -> None:
     rig = RIGS["walls"]
-    found = vi.seismic_response(vi.Rig(rig, RECORD))
-    assert float(found["residual_displacement"]) == pytest.approx(0.2 / 50.0, rel=1e-14)
-    assert float(found["residual_swing"]) == 0.0
+    response = vi.seismic_response(vi.Rig(rig, RECORD))
+    assert float(response["residual_displacement"]) == pytest.approx(0.2 / 50.0, rel=1e-14)
+    assert float(response["residual_swing"]) == 0.0
 
 
 def test_where_an_undamped_bilinear_isolator_rests() -> None:
     """It swings elastically for ever, about where its yielded element and its spring agree."""
     rig = vi.Oscillator(2.0, vi.BilinearIsolator(80.0, 8.0, 1.0, 0.0))
-    found = vi.seismic_response(vi.Rig(rig, RECORD))
+    response = vi.seismic_response(vi.Rig(rig, RECORD))
     motion = vi.simulate(vi.Rig(rig, RECORD), tail=60.0, samples=1)
     u, z = motion["displacement"].values[-1], motion["isolator_memory"].values[-1]
     # 8 r + 72 (z + r - u) = 0: at rest both pull equally, z moving as u does.
     assert abs(u - 72.0 * (u - z) / 80.0) > 1e-4
-    assert float(found["residual_displacement"]) == pytest.approx(72.0 * (u - z) / 80.0, rel=1e-9)
-    assert float(found["residual_swing"]) > 1e-4
+    assert float(response["residual_displacement"]) == pytest.approx(
+        72.0 * (u - z) / 80.0, rel=1e-9
+    )
+    assert float(response["residual_swing"]) > 1e-4
 
 
 @pytest.mark.parametrize("name", ["bilinear", "friction", "curved"])
 def test_where_a_damped_hysteretic_isolator_rests(name: str) -> None:
     rig = RIGS[name]
-    found = vi.seismic_response(vi.Rig(rig, RECORD))
+    response = vi.seismic_response(vi.Rig(rig, RECORD))
     long = vi.simulate(vi.Rig(rig, RECORD), tail=300.0, samples=0)["final_state"].values
-    size = float(found["peak_displacement"])
+    size = float(response["peak_displacement"])
     assert abs(long[1]) < 1e-6
-    swing = float(found["residual_swing"])
+    swing = float(response["residual_swing"])
     assert swing <= 1e-9 * size
     # That bounds the error, but for rounding.
-    assert abs(float(found["residual_displacement"]) - long[0]) <= swing + 1e-13 * size
+    assert abs(float(response["residual_displacement"]) - long[0]) <= swing + 1e-13 * size
     assert abs(long[0]) > 1e-3 * size
 
 
@@ -177,12 +179,12 @@ def test_where_it_rests_is_right_to_the_swing_that_is_left(seed: int) -> None:
     ]
     for law in laws:
         rig = vi.Oscillator(1.0, law)
-        found = vi.seismic_response(vi.Rig(rig, record))
+        response = vi.seismic_response(vi.Rig(rig, record))
         motion = vi.simulate(vi.Rig(rig, record), tail=300.0, samples=1)
-        place, size = motion["displacement"].values[-1], float(found["peak_displacement"])
+        place, size = motion["displacement"].values[-1], float(response["peak_displacement"])
         assert np.ptp(motion["displacement"].values[-500:]) <= 1e-12 * size
-        swing = float(found["residual_swing"])
-        assert abs(float(found["residual_displacement"]) - place) <= swing + 1e-12 * size
+        swing = float(response["residual_swing"])
+        assert abs(float(response["residual_displacement"]) - place) <= swing + 1e-12 * size
 
 
 @pytest.mark.parametrize("exponent", [1, 2, 3])
@@ -217,10 +219,10 @@ def test_what_is_given_up_is_told() -> None:
     with pytest.warns(
         RuntimeWarning, match="seismic_response: one forcing cycle or record step has more contacts"
     ):
-        found = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)
-    assert int(found["status"]) != 0
-    assert "max_events" in found.attrs["message"]
-    assert np.isnan(found["peak_displacement"])
+        response = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)
+    assert int(response["status"]) != 0
+    assert "max_events" in response.attrs["message"]
+    assert np.isnan(response["peak_displacement"])
 
 
 @pytest.mark.parametrize(

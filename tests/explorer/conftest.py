@@ -18,13 +18,13 @@ class Served:
     def __init__(self, port: int = 0, host: str = "127.0.0.1") -> None:
         ready = threading.Event()
 
-        def told(address: str) -> None:
+        def announce(address: str) -> None:
             self.address = address
             ready.set()
 
         async def run() -> None:
             self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
-            await serving(preset(FIRST), host, port, told, self._stop)
+            await serving(preset(FIRST), host, port, announce, self._stop)
 
         self._thread = threading.Thread(target=lambda: asyncio.run(run()), daemon=True)
         self._thread.start()

@@ -6,14 +6,14 @@
   const engine = new modules["engine.js"].Engine(instance, facts.engine);
   const nothing = async () => {};
   const { swept, held, curves } = modules["sweep.js"];
-  const found = [];
+  const answers = [];
   for (const state of states) {
     const data = await swept(engine, state, false, facts, nothing);
     const { rows, states } = data[state.direction];
     const begin = held(state, data);
     const motion = engine.trajectory(data.rig, state.amplitude, begin.frequency, begin.state, 3, 40);
     const plain = (lists) => lists.map((list) => Array.from(list, (x) => (Number.isFinite(x) ? x : null)));
-    found.push({
+    answers.push({
       rows: plain(rows),
       states: plain(states),
       motion: plain(motion.rows),
@@ -24,5 +24,5 @@
       basins: state.shown.includes("basins") ? await modules["basins.js"].basins(engine, state, false, facts, nothing) : null,
     });
   }
-  return JSON.stringify(found);
+  return JSON.stringify(answers);
 })

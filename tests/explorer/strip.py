@@ -26,11 +26,11 @@ def main() -> None:
     where: list[str] = []
     ready = threading.Event()
 
-    def told(address: str) -> None:
+    def announce(address: str) -> None:
         where.append(address)
         ready.set()
 
-    server = serving(preset(FIRST), "127.0.0.1", 0, told)
+    server = serving(preset(FIRST), "127.0.0.1", 0, announce)
     threading.Thread(target=lambda: asyncio.run(server), daemon=True).start()
     ready.wait()
     parts = []

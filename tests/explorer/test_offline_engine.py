@@ -34,13 +34,13 @@ from vibroimpact.response.sweep_arrays import plan_sweep, rows
 NODE, FIREFOX = shutil.which("node"), shutil.which("firefox") or shutil.which("firefox-esr")
 PROGRAM = Path(__file__).with_name("offline.js").read_text(encoding="utf-8").strip()
 IN_NODE = f"""
-const given = JSON.parse(require("fs").readFileSync(0));
+const input = JSON.parse(require("fs").readFileSync(0));
 // The worker waits for messages.
-({PROGRAM})(given).then((found) => process.stdout.write(found, () => process.exit()));
+({PROGRAM})(input).then((text) => process.stdout.write(text, () => process.exit()));
 """
 IN_FIREFOX = f"""<!doctype html><meta charset="utf-8"><script>
 const send = (body) => fetch("/", {{ method: "POST", body }});
-fetch("/given").then((answer) => answer.json()).then({PROGRAM}).then(send, (why) => send(why));
+fetch("/input").then((answer) => answer.json()).then({PROGRAM}).then(send, (why) => send(why));
 </script>"""
 SETTINGS = 50
 EXACT, NEAR = 1e-13, 1e-9
@@ -80,7 +80,7 @@ def drawn(random: np.random.Generator) -> PageState:
     )
 
 
-def given(states: list[PageState]) -> dict:
+def program_input(states: list[PageState]) -> dict:
     module = base64.b64encode((native.FOLDER / WASM).read_bytes()).decode()
     tables = [table(one) for one in states]
     return {
@@ -92,7 +92,7 @@ def given(states: list[PageState]) -> dict:
 
 
 def in_node(states: list[PageState]) -> list[dict]:
-    command, text = [str(NODE), "-e", IN_NODE], json.dumps(given(states))
+    command, text = [str(NODE), "-e", IN_NODE], json.dumps(program_input(states))
     done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
@@ -100,19 +100,19 @@ def in_node(states: list[PageState]) -> list[dict]:
 
 def in_chromium(browser, states: list[PageState]) -> list[dict]:
     opened = browser.new_page()
-    found = json.loads(opened.evaluate(PROGRAM, given(states)))
+    answers = json.loads(opened.evaluate(PROGRAM, program_input(states)))
     opened.close()
-    return found
+    return answers
 
 
 def in_firefox(folder: Path, states: list[PageState]) -> list[dict]:
-    there, answers, answered = json.dumps(given(states)).encode(), [], threading.Event()
+    there, answers, answered = json.dumps(program_input(states)).encode(), [], threading.Event()
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self):
             self.send_response(200)
             self.end_headers()
-            self.wfile.write(there if self.path == "/given" else IN_FIREFOX.encode())
+            self.wfile.write(there if self.path == "/input" else IN_FIREFOX.encode())
 
         def do_POST(self):
             answers.append(self.rfile.read(int(self.headers["Content-Length"])))
@@ -160,12 +160,12 @@ def numbers(lists: list[list[float | None]]) -> np.ndarray:
 def test_sweeps_and_motions_are_those_of_python(run):
     states = settings()
     compared = 0
-    for state, found in zip(states, run(states), strict=True):
+    for state, answer in zip(states, run(states), strict=True):
         grid = np.linspace(*state.span, curves.COARSE)
         plan = plan_sweep(state.rig, grid)
         settling = Settling(max_cycles=curves.PATIENCE, window=curves.WINDOW)
         expected, reached = rows(plan, state.direction, 0.0, settling, np.zeros(2, np.int64))
-        here, there = numbers(found["rows"]), numbers(found["states"])
+        here, there = numbers(answer["rows"]), numbers(answer["states"])
         assert (expected[:, steady_response.PERIOD] == here[:, steady_response.PERIOD]).mean() > 0.9
         # Behind what wanders, for ever or for long, rounding decides which of two motions follows.
         calm = (expected[:, steady_response.PERIOD] > 0) & (
@@ -200,7 +200,7 @@ def test_sweeps_and_motions_are_those_of_python(run):
             ("velocity", record_layout.VELOCITY),
             ("acceleration", record_layout.ACCELERATION),
         ):
-            one, other = motion[name].values, numbers(found["motion"][row : row + 1])[0]
+            one, other = motion[name].values, numbers(answer["motion"][row : row + 1])[0]
             assert np.abs(one - other).max() <= NEAR * np.abs(one).max()
     assert compared > 0.75 * SETTINGS * curves.COARSE
 
@@ -217,7 +217,9 @@ def test_firefox_gives_what_node_gives(tmp_path):
     states = settings()
     for one, other in zip(in_firefox(tmp_path, states), in_node(states), strict=True):
         # Its sines differ in the last digit.
-        ours, theirs = (found["careful"].pop("spectrum")["displacement"] for found in (one, other))
+        ours, theirs = (
+            answer["careful"].pop("spectrum")["displacement"] for answer in (one, other)
+        )
         np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-15 * max(theirs))
         assert one == other
 
@@ -225,55 +227,55 @@ def test_firefox_gives_what_node_gives(tmp_path):
 def test_pictures_and_knobs_are_those_of_python(run):
     random = np.random.default_rng(2)
     states = [preset(FIRST), *(drawn(random) for _ in range(8))]
-    for state, found in zip(states, run(states), strict=True):
+    for state, answer in zip(states, run(states), strict=True):
         expected = curves.curves(state, curves.swept(state, fine=False), fine=False)
         for panel in expected["panels"]:
             for level in panel["levels"]:
                 del level["label"]  # which no page shows
-        assert near(found["curves"], json.loads(json.dumps(expected)))
+        assert near(answer["curves"], json.loads(json.dumps(expected)))
         knobs = [one._asdict() for one in controls(state, state)]
         theirs = [one for one in knobs if one["path"] != "isolator.damping_exponent"]
-        assert near(found["controls"], theirs)
+        assert near(answer["controls"], theirs)
 
 
 def test_pictures_of_motions_are_those_of_python(run):
     random = np.random.default_rng(3)
     states = [preset(FIRST), *(drawn(random) for _ in range(12))]
     periodic = 0
-    for state, found in zip(states, run(states), strict=True):
+    for state, answer in zip(states, run(states), strict=True):
         data = curves.swept(state, fine=False)
         held = data.sel(direction=state.direction)
         if (held["cycles"] > WANDERING).any():
             continue  # see above
         quick, careful = motion.quick(state, data), motion.careful(state, data)
-        assert near(found["quick"], quick)
+        assert near(answer["quick"], quick)
         lines, expected = (
-            one.pop("spectrum")["displacement"] for one in (found["careful"], careful)
+            one.pop("spectrum")["displacement"] for one in (answer["careful"], careful)
         )
         # The page's lines are those of samples.
         np.testing.assert_allclose(lines, expected, rtol=1e-3, atol=1e-5 * max(expected))
-        assert found["careful"].pop("table") is None
+        assert answer["careful"].pop("table") is None
         del careful["table"]
-        words, theirs = found["careful"].pop("words"), careful.pop("words")
+        words, theirs = answer["careful"].pop("words"), careful.pop("words")
         if "period" in theirs:
             assert words.split("; ")[0] == theirs.split("; ")[0]
             multipliers = [float(one.split()[-3]) for one in (words, theirs)]
             assert multipliers[0] == pytest.approx(multipliers[1], rel=1e-5, abs=1e-9)
             periodic += 1
-        assert near(found["careful"], careful)
+        assert near(answer["careful"], careful)
     assert periodic > 6
 
 
 def test_basins_are_those_of_python(run):
     state = preset("B2-G1-A3")._replace(shown=frozenset(["basins"]))
-    (found,) = run([state])
+    (answer,) = run([state])
     expected = basins.starts(state, False, lambda done, total: None)
-    assert found["basins"]["motions"] == expected["motions"]
+    assert answer["basins"]["motions"] == expected["motions"]
     assert len(expected["motions"]) == 2
-    assert found["basins"]["excursions"] == expected["excursions"]
-    cells = np.array(found["basins"]["cells"]) == np.array(expected["cells"])
+    assert answer["basins"]["excursions"] == expected["excursions"]
+    cells = np.array(answer["basins"]["cells"]) == np.array(expected["cells"])
     assert cells.all()
-    assert near(found["basins"], expected)
+    assert near(answer["basins"], expected)
 
 
 def near(one, other) -> bool:

@@ -35,9 +35,9 @@ def drag(page, selector, across):
     return seen
 
 
-def until(page, condition, given=None):
+def until(page, condition, pair=None):
     """Wait; as a function, for the page allows no text to be run as a program."""
-    page.wait_for_function(f"(given) => {condition}", arg=given)
+    page.wait_for_function(f"(pair) => {condition}", arg=pair)
 
 
 def settle(page):
@@ -51,9 +51,7 @@ def settle(page):
 
 
 def until_bent(page, before, selector=FORWARD):
-    until(
-        page, "document.querySelector(given[0]).getAttribute('d') !== given[1]", [selector, before]
-    )
+    until(page, "document.querySelector(pair[0]).getAttribute('d') !== pair[1]", [selector, before])
 
 
 def test_the_page_loads_and_everything_has_a_name(opened):
@@ -84,9 +82,7 @@ def test_a_drag_of_a_knob_bends_the_curves_and_undo_takes_it_back(opened):
     page.keyboard.press("Control+z")
     until(page, "document.getElementById('undo').disabled")  # a drag is one step
     assert page.input_value("#text-stops-gap") == gap
-    until(
-        page, "document.querySelector(given[0]).getAttribute('d') === given[1]", [FORWARD, before]
-    )
+    until(page, "document.querySelector(pair[0]).getAttribute('d') === pair[1]", [FORWARD, before])
     page.click("#redo")
     until(page, "!document.getElementById('undo').disabled")
 
@@ -241,10 +237,10 @@ def test_files_are_offered(opened):
     page = opened()
     page.click("#share summary")
     for button, name in (("[data-file=study]", "B2-G1-A3.toml"), ("#svg", "B2-G1-A3.svg")):
-        with page.expect_download() as found:
+        with page.expect_download() as download:
             page.click(button)
-        assert found.value.suggested_filename == name
-        text = found.value.path().read_text(encoding="utf-8")
+        assert download.value.suggested_filename == name
+        text = download.value.path().read_text(encoding="utf-8")
         assert ("[oscillator]" in text) or text.startswith("<svg")
 
 

@@ -105,13 +105,13 @@ def test_what_is_not_understood_is_refused(served, raw):
         socket.recv()
         socket.send(raw)
         while True:
-            told = json.loads(socket.recv(timeout=30))
-            if "refused" in told:
+            message = json.loads(socket.recv(timeout=30))
+            if "refused" in message:
                 break
         socket.send('{"do": "change", "path": "mass", "value": "600 kg"}')
-        while "state" not in (told := json.loads(socket.recv(timeout=30))):
+        while "state" not in (message := json.loads(socket.recv(timeout=30))):
             pass
-        assert told["state"]["undo"] == 1
+        assert message["state"]["undo"] == 1
 
 
 def test_messages_are_bounded(served):
@@ -126,9 +126,9 @@ def test_messages_are_bounded(served):
 
 def until(socket, key):
     """The next message with this key."""
-    while key not in (told := json.loads(socket.recv(timeout=30))):
+    while key not in (message := json.loads(socket.recv(timeout=30))):
         pass
-    return told
+    return message
 
 
 def test_a_knob_does_not_wait_for_a_file(served, monkeypatch):
@@ -210,8 +210,8 @@ def test_beyond_this_machine_a_token_is_asked_for():
     here = f"http://127.0.0.1:{server.port}/"
     try:
         assert len(token) >= 32
-        for given, status in ((token, 200), ("", 403), (token[:-1], 403), (token + "x", 403)):
-            assert asked(f"{here}?token={given}")[0] == status
+        for text, status in ((token, 200), ("", 403), (token[:-1], 403), (token + "x", 403)):
+            assert asked(f"{here}?token={text}")[0] == status
         assert asked(here)[0] == asked(here + "live")[0] == 403
         at = {"origin": here.rstrip("/"), "proxy": None}
         with connect(f"ws://127.0.0.1:{server.port}/live?token={token}", **at) as socket:

@@ -24,18 +24,18 @@ def session():
 
 
 def pictures(session):
-    found = []
+    messages = []
     for stage in session.stages():
         if session.wants(stage):
-            found.append(session.make(stage, session.asked))
+            messages.append(session.make(stage, session.asked))
             session.sent(stage)
     # As the server sends them.
-    return json.loads(json.dumps(found, allow_nan=False))
+    return json.loads(json.dumps(messages, allow_nan=False))
 
 
 def test_pictures_are_those_of_the_public_functions(session):
-    told = pictures(session)
-    assert [(one["picture"], one["fine"]) for one in told] == [
+    messages = pictures(session)
+    assert [(one["picture"], one["fine"]) for one in messages] == [
         ("curves", False),
         ("motion", False),
         ("scenario", False),
@@ -43,7 +43,7 @@ def test_pictures_are_those_of_the_public_functions(session):
         ("motion", True),
         ("scenario", True),
     ]
-    coarse, fine, motion, scenario = told[0], told[3], told[4], told[5]
+    coarse, fine, motion, scenario = messages[0], messages[3], messages[4], messages[5]
     case = vi.laboratory.case("B2-G1-A3")
     curves = vi.sweep(case, coarse["frequency"])
     for k, name in enumerate(("eta_a", "eta_d")):
@@ -71,8 +71,8 @@ def test_pictures_are_those_of_the_public_functions(session):
 def test_what_has_been_sent_is_not_made_again(session):
     pictures(session)
     assert pictures(session) == []
-    told = session.take({"do": "choose", "direction": "backward", "frequency": 2.2})
-    assert told["state"]["direction"] == "backward"
+    answer = session.take({"do": "choose", "direction": "backward", "frequency": 2.2})
+    assert answer["state"]["direction"] == "backward"
     assert [one["picture"] for one in pictures(session)] == ["motion", "motion"]
 
 
@@ -123,10 +123,10 @@ def test_what_is_overtaken_is_not_made(session):
 )
 def test_what_is_wrong_is_refused_and_changes_nothing(session, message):
     before = session.history
-    told = session.take(message)
-    assert told["refused"]
+    answer = session.take(message)
+    assert answer["refused"]
     assert session.history == before
-    assert json.loads(_text(told).encode()) == told  # it can be sent
+    assert json.loads(_text(answer).encode()) == answer  # it can be sent
 
 
 ODD = [
@@ -165,8 +165,8 @@ def test_an_address_of_wrong_types_is_answered(session, odd):
             part = part[key]
         part[keys[-1]] = odd
         address = base64.urlsafe_b64encode(json.dumps(table["whole"]).encode()).decode()
-        told = session.take({"do": "open", "address": address})
-        assert "state" in json.loads(_text(told).encode())
+        answer = session.take({"do": "open", "address": address})
+        assert "state" in json.loads(_text(answer).encode())
         session.take({"do": "open", "address": share.address(preset("B2-G1-A3"))})
 
 
@@ -184,9 +184,9 @@ def test_knobs_beyond_all_bounds_are_told_in_words(session, path):
 
 
 def test_files(session, tmp_path):
-    told = session.file("netcdf")
-    path = tmp_path / told["file"]
-    path.write_bytes(base64.b64decode(told["bytes"]))
+    answer = session.file("netcdf")
+    path = tmp_path / answer["file"]
+    path.write_bytes(base64.b64decode(answer["bytes"]))
     assert vi.load(path).sizes["frequency"] == 181
     table = base64.b64decode(session.file("csv")["bytes"]).decode()
     assert table.count("\n") == 1 + 2 * 181

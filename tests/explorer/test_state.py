@@ -23,15 +23,15 @@ def knobs(state):
 
 
 def test_every_number_of_the_rig_has_a_knob():
-    told = knobs(CASE)
+    by_path = knobs(CASE)
     rig = CASE.oscillator
-    assert told["mass"].value == rig.mass
-    assert told["isolator.stiffness"].text == "26.29 kN/m"
-    assert told["stops.gap"].value == rig.right.gap
-    assert told["amplitude"].text == "0.05 g"
-    assert told["stops.stiffness_ratio"].value == pytest.approx(510e3 / 26290.0)
-    assert told["damping_ratio"].value == pytest.approx(0.15)
-    assert all(knob.low <= knob.value <= knob.high for knob in told.values())
+    assert by_path["mass"].value == rig.mass
+    assert by_path["isolator.stiffness"].text == "26.29 kN/m"
+    assert by_path["stops.gap"].value == rig.right.gap
+    assert by_path["amplitude"].text == "0.05 g"
+    assert by_path["stops.stiffness_ratio"].value == pytest.approx(510e3 / 26290.0)
+    assert by_path["damping_ratio"].value == pytest.approx(0.15)
+    assert all(knob.low <= knob.value <= knob.high for knob in by_path.values())
 
 
 @pytest.mark.parametrize("kind", laws.isolator_laws())

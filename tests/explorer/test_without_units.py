@@ -60,19 +60,19 @@ def test_no_text_that_is_sent_has_a_unit(session):
     session.take({"do": "look", "what": "branch", "on": True})
     session.take({"do": "look", "what": "basins", "on": True})
     for physical in (False, True):
-        told = session.take({"do": "look", "what": "physical", "on": physical})
-        sent = [told, *pictures(session)]
-        found = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text or " µ" in text]
-        assert found == []
-        assert told["state"]["without_units"]
+        answer = session.take({"do": "look", "what": "physical", "on": physical})
+        sent = [answer, *pictures(session)]
+        odd = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text or " µ" in text]
+        assert odd == []
+        assert answer["state"]["without_units"]
     assert not unitless()  # any more
 
 
 def test_pictures_are_in_the_numbers_of_the_rig():
     session = Session(begin(RIG))
     session.take({"do": "look", "what": "physical", "on": True})
-    told = {(one["picture"], one["fine"]): one for one in pictures(session)}
-    coarse, motion = told["curves", False], told["motion", True]
+    messages = {(one["picture"], one["fine"]): one for one in pictures(session)}
+    coarse, motion = messages["curves", False], messages["motion", True]
     swept = vi.sweep(RIG, np.array(coarse["frequency"]) / math.tau)
     regular = (swept["period"] > 0).sel(direction="forward").values
     assert regular.mean() > 0.5
@@ -98,9 +98,9 @@ def test_pictures_are_in_the_numbers_of_the_rig():
 
 def test_numbers_of_the_frequency_are_omega():
     session = Session(begin(RIG))
-    for given in (1.5, "1.5", "1.5 rad/s"):
-        told = session.take({"do": "choose", "direction": "forward", "frequency": given})
-        assert told["state"]["frequency_text"] == "1.5"
+    for value in (1.5, "1.5", "1.5 rad/s"):
+        answer = session.take({"do": "choose", "direction": "forward", "frequency": value})
+        assert answer["state"]["frequency_text"] == "1.5"
         assert session.state.shaking.frequency == pytest.approx(1.5 / math.tau)
     refused = session.take({"do": "choose", "direction": "forward", "frequency": 99})["refused"]
     assert "ω = 99" in refused
@@ -114,10 +114,10 @@ def test_both_ends_of_the_curves_can_be_chosen(rig, span):
     session = Session(begin(rig, "x", span))
     coarse = session.make(next(session.stages()), session.asked)
     for end in (0, -1):
-        told = session.take(
+        answer = session.take(
             {"do": "choose", "direction": "forward", "frequency": coarse["frequency"][end]}
         )
-        assert "refused" not in told
+        assert "refused" not in answer
         assert session.state.shaking.frequency == session.state.span[end]
 
 
@@ -125,14 +125,14 @@ def test_both_ends_of_the_curves_can_be_chosen(rig, span):
 def test_a_value_with_a_unit_is_refused(path):
     session = Session(begin(RIG))
     unit = {"amplitude": "0.05 g", "mass": "2 kg", "stops.gap": "5 mm"}.get(path, "1 N s/m")
-    told = session.take({"do": "change", "path": path, "value": unit})
-    assert told["refused"].count("\n") == 0
-    assert "has a unit, but" in told["refused"]
-    told = session.take({"do": "change", "path": path, "value": "few"})
-    assert not UNIT.search(told["refused"])
-    told = session.take({"do": "change", "path": path, "value": "0.3"})
-    assert "refused" not in told
-    knob = next(one for one in told["state"]["controls"] if one["path"] == path)
+    answer = session.take({"do": "change", "path": path, "value": unit})
+    assert answer["refused"].count("\n") == 0
+    assert "has a unit, but" in answer["refused"]
+    answer = session.take({"do": "change", "path": path, "value": "few"})
+    assert not UNIT.search(answer["refused"])
+    answer = session.take({"do": "change", "path": path, "value": "0.3"})
+    assert "refused" not in answer
+    knob = next(one for one in answer["state"]["controls"] if one["path"] == path)
     assert (knob["value"], knob["text"]) == (0.3, "0.3")
 
 

@@ -20,18 +20,18 @@ def swept():
 
 
 def test_the_largest_is_that_of_the_sweep_and_where(swept):
-    found = largest.facts(swept)
-    one = found["peak_acceleration"]
+    facts = largest.facts(swept)
+    one = facts["peak_acceleration"]
     assert one["value"] == float(swept.peak_acceleration.max())
     there = swept.sel(frequency=one["frequency"], direction=one["direction"])
     assert float(there.peak_acceleration) == one["value"]
-    assert found["displacement_min"]["value"] == float(swept.displacement_min.min())
-    assert not any(name.startswith("peak_impulse") for name in found)  # no stop is rigid
+    assert facts["displacement_min"]["value"] == float(swept.displacement_min.min())
+    assert not any(name.startswith("peak_impulse") for name in facts)  # no stop is rigid
 
 
 def test_the_largest_of_a_rig_that_touches_nothing_has_no_force():
-    found = largest.facts(vi.sweep("B2-G1-A3", [4.5], "backward"))
-    assert set(found) == {"displacement_max", "displacement_min", "peak_acceleration"}
+    facts = largest.facts(vi.sweep("B2-G1-A3", [4.5], "backward"))
+    assert set(facts) == {"displacement_max", "displacement_min", "peak_acceleration"}
 
 
 def test_equal_sweeps_name_the_forward_one():
@@ -40,16 +40,16 @@ def test_equal_sweeps_name_the_forward_one():
 
 
 def test_a_sweep_is_told_in_plain_values_and_in_the_same_words(swept):
-    found = features(swept)
-    told = sweeps.facts(swept, found, ["look closer"])
-    assert json.loads(json.dumps(told))["largest"] == told["largest"]  # plain numbers and texts
-    assert told["frequencies"] == {"from": 0.5, "to": 3.5, "count": 31}
-    text = as_text(sweeps.text(swept, found, ["look closer"]))
+    traits = features(swept)
+    facts = sweeps.facts(swept, traits, ["look closer"])
+    assert json.loads(json.dumps(facts))["largest"] == facts["largest"]  # plain numbers and texts
+    assert facts["frequencies"] == {"from": 0.5, "to": 3.5, "count": 31}
+    text = as_text(sweeps.text(swept, traits, ["look closer"]))
     assert "31 frequencies from 0.5 to 3.5 Hz, forward and backward" in text
-    for jump in told["jumps"]:
+    for jump in facts["jumps"]:
         low, high = jump["before"], jump["after"]
         assert f"{low:g} and {high:g}" in text
-    (hysteresis,) = told["hysteresis"]
+    (hysteresis,) = facts["hysteresis"]
     assert f"{hysteresis['low']:g} to {hysteresis['high']:g} Hz: right" in text
     assert "Advice: look closer" in text
 
@@ -59,7 +59,7 @@ def test_rigid_stops_are_called_stops():
     bumper = vi.Bumper("100 kN/m", "1 kN s/m", "5 mm")
     isolator = vi.Isolator("26 kN/m", "1 kN s/m")
 
-    def told(right, left):
+    def words(right, left):
         rig = vi.Rig(vi.Oscillator("550 kg", isolator, right, left), "0.05 g")
         data = vi.sweep(rig, [1.0, 1.1])
         motion = vi.steady(rig, frequency=1.1)
@@ -67,11 +67,11 @@ def test_rigid_stops_are_called_stops():
         return " ".join("".join(as_text(one) for one in both).split())
 
     for stops in ((vi.RigidStop(0.6, "5 mm"), None), (bumper, vi.RigidStop(0.6, "5 mm"))):
-        text = told(*stops)
+        text = words(*stops)
         assert "Contact with a stop" in text
         assert "of it lost in the stops" in text
         assert "umper" not in text
-    text = told(bumper, bumper)
+    text = words(bumper, bumper)
     assert "Contact with a bumper" in text
     assert "of it lost in the bumpers" in text
 

@@ -68,7 +68,7 @@ def test_a_heavy_building_in_meganewtons():
     data = xr.Dataset({name: ("contact_number", np.array(v)) for name, v in row.items()})
     console = Console(record=True, width=100, file=io.StringIO())
     console.print(verdict.contact_table(data))
-    told = console.export_text()
-    assert "force (MN)" in told
-    assert "79.2" in told
-    assert "e+" not in told
+    text = console.export_text()
+    assert "force (MN)" in text
+    assert "79.2" in text
+    assert "e+" not in text

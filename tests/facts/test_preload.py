@@ -19,9 +19,9 @@ def test_a_sweep_says_that_its_bumpers_are_touched():
     assert not data["impacts"].sel(stop="right").any()
     # At rest each bumper is pressed by 10 mm.
     assert (data["peak_force"].sel(stop="right") > 500.0).all()
-    found = features(data)
-    assert {(one.low, one.high) for one in found.contact} == {(1.0, 2.0)}
-    text = as_text(sweeps.text(data, found, []))
+    traits = features(data)
+    assert {(one.low, one.high) for one in traits.contact} == {(1.0, 2.0)}
+    text = as_text(sweeps.text(data, traits, []))
     assert "Contact with a bumper\n  forward: 1 to 2 Hz\n  backward: 1 to 2 Hz" in text
 
 
@@ -44,10 +44,10 @@ def test_an_earthquake_does_not_say_that_pressed_stops_are_not_hit(sides):
     rig = RIG if len(sides) == 2 else RIG.replace(left=None)
     record = vi.Record(0.1 * np.sin(np.arange(50.0)), 0.02)
     response = vi.seismic_response(vi.Rig(rig, record))
-    told = sentence(response, rig, None)
-    assert told.startswith("The mass presses the right stop with at most ")
-    assert told.endswith(" from the start; no impact follows.")
-    assert ("left" in told) == (len(sides) == 2)
+    text = sentence(response, rig, None)
+    assert text.startswith("The mass presses the right stop with at most ")
+    assert text.endswith(" from the start; no impact follows.")
+    assert ("left" in text) == (len(sides) == 2)
     near = rig.replace(right=PRESSED.replace(gap=1e-5), left=None)
     hits = vi.seismic_response(vi.Rig(near, record))
     assert sentence(hits, near, None).startswith("The mass hits the right stop ")

@@ -24,10 +24,10 @@ class Piece(NamedTuple):
 def pieces(figure: Figure) -> list[Piece]:
     """Return all visible texts of a figure, and its legends, each as one piece."""
     figure.draw_without_rendering()
-    found = []
+    parts = []
     top = getattr(figure, "_suptitle", None)
     if top is not None:
-        found.append(_piece(top, "title"))
+        parts.append(_piece(top, "title"))
     legends = list(figure.legends)
     panels: list[Axes] = [*figure.axes]
     for ax in figure.axes:
@@ -35,25 +35,25 @@ def pieces(figure: Figure) -> list[Piece]:
     for ax in panels:
         if ax.get_legend() is not None:
             legends.append(ax.get_legend())
-        found += [
+        parts += [
             _piece(one, "title")
             for one in ax.get_children()
             if isinstance(one, Text) and one.get_text() and one not in ax.texts
         ]
-        found += [_piece(text, "note") for text in ax.texts if text.get_text().strip()]
+        parts += [_piece(text, "note") for text in ax.texts if text.get_text().strip()]
         if ax.axison:
             for axis in (ax.xaxis, ax.yaxis):
-                found += _of_axis(axis)
+                parts += _of_axis(axis)
     for legend in legends:
         words = ", ".join(text.get_text() for text in legend.get_texts())
-        found.append(Piece(words, "legend", _points(legend.get_window_extent(), figure)))
-    return found
+        parts.append(Piece(words, "legend", _points(legend.get_window_extent(), figure)))
+    return parts
 
 
 def _of_axis(axis: Axis) -> list[Piece]:
     if not axis.get_visible():
         return []
-    found = []
+    labels = []
     low, high = sorted(axis.get_view_interval())
     slack = 1e-9 * (high - low)
     for minor in (False, True):
@@ -62,15 +62,15 @@ def _of_axis(axis: Axis) -> list[Piece]:
             places, axis.get_minor_ticks() if minor else axis.get_major_ticks(), strict=False
         ):
             if low - slack <= place <= high + slack:
-                found += [
+                labels += [
                     _piece(label, "tick")
                     for label in (tick.label1, tick.label2)
                     if label.get_visible() and label.get_text().strip()
                 ]
     for text, kind in ((axis.label, "label"), (axis.get_offset_text(), "tick")):
         if text.get_visible() and text.get_text().strip():
-            found.append(_piece(text, kind))
-    return found
+            labels.append(_piece(text, kind))
+    return labels
 
 
 def _piece(text: Text, kind: str) -> Piece:
@@ -93,7 +93,7 @@ def problems(figure: Figure, touching: float = 1.0) -> list[str]:
     """
     every = pieces(figure)
     wide, high = 72.0 * figure.get_size_inches()
-    found = [
+    lines = [
         f"cut: {one.kind} {one.words!r} {np.round(one.box.extents, 1).tolist()} of {wide:.0f} x "
         f"{high:.0f}"
         for one in every
@@ -106,7 +106,7 @@ def problems(figure: Figure, touching: float = 1.0) -> list[str]:
         x = min(a.box.x1, b.box.x1) - max(a.box.x0, b.box.x0)
         y = min(a.box.y1, b.box.y1) - max(a.box.y0, b.box.y0)
         if min(x, y) > touching:
-            found.append(
+            lines.append(
                 f"overlap by {x:.1f} x {y:.1f}: {a.kind} {a.words!r} and {b.kind} {b.words!r}"
             )
-    return found
+    return lines

@@ -310,12 +310,12 @@ def test_curves_are_called_by_their_names():
 def refused(call, begins: str, *holds: str) -> None:
     with pytest.raises(vi.InputError) as caught:
         call()
-    told = str(caught.value)
-    assert told.startswith(begins)
-    assert "pass " in told.partition("; ")[2]
-    assert "\n" not in told
+    message = str(caught.value)
+    assert message.startswith(begins)
+    assert "pass " in message.partition("; ")[2]
+    assert "\n" not in message
     for part in holds:
-        assert part in told
+        assert part in message
 
 
 def test_what_is_no_branch_is_refused():

@@ -106,10 +106,10 @@ EACH = sample(
 @pytest.mark.parametrize(("rig", "figure"), EACH)
 def test_in_python(rig, figure):
     (rig, published), (draw, eta, physical) = RIGS[rig], FIGURES[figure]
-    found = labels(draw(rig))
+    texts = labels(draw(rig))
     expected = eta if published else physical
-    assert len(found) >= len(expected)
-    assert [part in text for part, text in zip(expected, found, strict=False)] == [True] * len(
+    assert len(texts) >= len(expected)
+    assert [part in text for part, text in zip(expected, texts, strict=False)] == [True] * len(
         expected
     )
 

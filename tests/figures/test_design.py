@@ -63,11 +63,11 @@ def test_the_front(data) -> None:
     u, a = (np.sort(data[f"peak_{what}"].values[best]) for what in ("displacement", "acceleration"))
     np.testing.assert_allclose(front.get_xdata(), 1e3 * u)
     np.testing.assert_allclose(front.get_ydata(), a[::-1] / GRAVITY)
-    told = " ".join(ax.texts[-1].get_text().split("\n"))
-    assert told.startswith("gap of each side, ")
-    assert "1  " in told
-    assert " mm, " in told
-    assert " N/m" in told or " kN/m" in told
+    note = " ".join(ax.texts[-1].get_text().split("\n"))
+    assert note.startswith("gap of each side, ")
+    assert "1  " in note
+    assert " mm, " in note
+    assert " N/m" in note or " kN/m" in note
 
 
 def test_the_present_design_is_marked_where_it_was_computed() -> None:
@@ -87,9 +87,9 @@ def test_the_present_design_is_marked_where_it_was_computed() -> None:
     assert star.get_ydata() == pytest.approx(float(here["peak_acceleration"]) / GRAVITY)
     assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
     beside = own.drop_sel(gap=gap)
-    told = [text.get_text() for text in pareto_front(beside).get_legend().get_texts()]
-    assert "present design: not computed" in told
-    assert "present design" not in told
+    legend = [text.get_text() for text in pareto_front(beside).get_legend().get_texts()]
+    assert "present design: not computed" in legend
+    assert "present design" not in legend
 
 
 def test_of_a_long_front_some_are_numbered() -> None:
@@ -98,8 +98,8 @@ def test_of_a_long_front_some_are_numbered() -> None:
     )
     count = int(long["pareto"].sum())
     assert count > 5
-    told = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
-    assert told.startswith(
+    note = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
+    assert note.startswith(
         f"5 of the {count} designs that are not dominated by another: gap of each side 1 "
     )
 
@@ -198,13 +198,13 @@ def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) 
     }
     both = hatched(design_chart(limited(data, **limits))[0])
     each = [hatched(design_chart(limited(data, **{n: v}))[0]) for n, v in limits.items()]
-    found = set()
+    combinations = set()
     for gap in np.linspace(0.02, 0.29, 23):
         for stiffness in np.geomspace(120.0, 1900.0, 23):
             alone = [one(gap, stiffness) for one in each]
-            found.add(tuple(alone))
+            combinations.add(tuple(alone))
             assert both(gap, stiffness) == any(alone)
-    assert {(True, False), (False, True), (False, False)} <= found
+    assert {(True, False), (False, True), (False, False)} <= combinations
 
 
 def test_where_no_design_was_done_all_is_hatched(data) -> None:
@@ -274,15 +274,15 @@ def test_the_present_design_is_marked() -> None:
     wall = vi.Bumper(400.0, 1.0, 0.08)
     rig = RIGS["bumpers"].replace(right=wall, left=wall)
     vary = {"gap": [0.02, 0.05, 0.1], "stops.stiffness": [300.0, 500.0, 900.0]}
-    found = vi.design_chart(rig, vary, records=noise(8, count=60))
-    for ax in design_chart(found):
+    chart = vi.design_chart(rig, vary, records=noise(8, count=60))
+    for ax in design_chart(chart):
         (star,) = [line for line in ax.lines if line.get_marker() == "*"]
         assert star.get_xydata().tolist() == [[80.0, 400.0]]
         assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
-    for ax in design_chart(found.isel({"stops.stiffness": 0}).drop_vars("stops.stiffness")):
+    for ax in design_chart(chart.isel({"stops.stiffness": 0}).drop_vars("stops.stiffness")):
         (line,) = [line for line in ax.lines if line.get_label() == "present design"]
         assert line.get_xdata() == [80.0, 80.0]
-    beyond = design_chart(found.isel(gap=[0, 1]))[0]
+    beyond = design_chart(chart.isel(gap=[0, 1]))[0]
     assert not [line for line in beyond.lines if line.get_marker() == "*"]
 
 

@@ -82,7 +82,7 @@ def test_lines_of_a_curve():
 
 
 @pytest.mark.parametrize(
-    ("draw", "told"),
+    ("draw", "message"),
     [
         (lambda: resonance_bands(vi.sweep(CASE, GRID)), "data: .* not an ensemble of sweeps"),
         (lambda: resonance_bands(drawn(), quantities=["colour"]), "quantity: 'colour'"),
@@ -91,6 +91,6 @@ def test_lines_of_a_curve():
         (lambda: sensitivity_bars(indices().expand_dims("rig")), "data: the indices depend on"),
     ],
 )
-def test_refused(draw, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_refused(draw, message):
+    with pytest.raises(vi.InputError, match=message):
         draw()

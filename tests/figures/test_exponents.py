@@ -24,15 +24,15 @@ def test_over_a_parameter_of_two_rigs():
 
 
 def test_of_a_bifurcation_diagram_and_over_the_frequency():
-    found = vi.bifurcation_diagram("B3-10mm-A3", {"gap": (4.8e-3, 5e-3)}, 3, frequency=1.12)
-    ax = exponent_curves(found.sel(start="up"))
-    np.testing.assert_array_equal(ax.lines[0].get_ydata(), found["exponents"][0, :, 0])
+    diagram = vi.bifurcation_diagram("B3-10mm-A3", {"gap": (4.8e-3, 5e-3)}, 3, frequency=1.12)
+    ax = exponent_curves(diagram.sel(start="up"))
+    np.testing.assert_array_equal(ax.lines[0].get_ydata(), diagram["exponents"][0, :, 0])
     ax = exponent_curves(vi.lyapunov_exponents("B2-G1-A3", [1.0, 2.0], 64), title="two")
     assert ax.get_xlabel() == "excitation frequency (Hz)"
 
 
 @pytest.mark.parametrize(
-    ("data", "told"),
+    ("data", "message"),
     [
         (lambda: vi.sweep("B2-G1-A3", [1.0]), "data: it has no exponents"),
         (lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0], 32), "there is one set of exponents"),
@@ -42,6 +42,6 @@ def test_of_a_bifurcation_diagram_and_over_the_frequency():
         ),
     ],
 )
-def test_refused(data, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_refused(data, message):
+    with pytest.raises(vi.InputError, match=message):
         exponent_curves(data())

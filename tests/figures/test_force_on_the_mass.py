@@ -152,9 +152,9 @@ def test_branches_are_drawn_by_it() -> None:
 
 
 def test_texts_state_it() -> None:
-    found = largest.facts(swept())
+    facts = largest.facts(swept())
     for name in ("peak_transmitted_force", "transmissibility"):
-        assert found[name]["value"] == float(swept()[name].max())
+        assert facts[name]["value"] == float(swept()[name].max())
     text = as_text(motions.text({4.2: {"motion": motion()}}), 100)
     low, high = (1e-3 * float(motion()[f"transmitted_force_{end}"]) for end in ("min", "max"))
     assert f"transmitted force    {low:.5g} to {high:.5g} kN" in text

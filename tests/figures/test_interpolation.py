@@ -21,16 +21,16 @@ def test_straight_on_the_scales_of_the_axes() -> None:
 def test_a_node_that_is_not_known_leaves_its_cells_open() -> None:
     values = np.arange(12.0).reshape(3, 4)
     values[0, 1] = np.nan
-    found = np.isnan(finer(values))
-    step = (found.shape[1] - 1) // 3
-    assert found[1:step, 1 : 2 * step].all()
-    assert not found[step:].any()
-    assert not found[:, 2 * step :].any()
-    assert not found[:step, 0].any()
+    unknown = np.isnan(finer(values))
+    step = (unknown.shape[1] - 1) // 3
+    assert unknown[1:step, 1 : 2 * step].all()
+    assert not unknown[step:].any()
+    assert not unknown[:, 2 * step :].any()
+    assert not unknown[:step, 0].any()
 
 
 def test_the_nearest_changes_half_way() -> None:
-    found = nearest(np.array([[False, True], [False, True]]))
-    half = found.shape[1] // 2
-    assert not found[:, :half].any()
-    assert found[:, half:].all()
+    fine = nearest(np.array([[False, True], [False, True]]))
+    half = fine.shape[1] // 2
+    assert not fine[:, :half].any()
+    assert fine[:, half:].all()

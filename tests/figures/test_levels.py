@@ -34,10 +34,10 @@ def middles(ax):
 def test_a_number_stands_on_its_line_and_along_it(ax) -> None:
     begins = {0.25: 0.1, 12500.0: 0.7}
     number_lines(ax, [(level, [slanted(begin)]) for level, begin in begins.items()], [])
-    found = middles(ax)
-    assert set(found) == {"0.25", "12500"}
+    centres = middles(ax)
+    assert set(centres) == {"0.25", "12500"}
     for text in ax.texts:
-        x, y = found[text.get_text()]
+        x, y = centres[text.get_text()]
         assert y == pytest.approx(begins[float(text.get_text())] + 0.5 * x, abs=0.03)
         along = ax.transData.transform([[0.0, 0.0], [1.0, 0.5]])
         steep = np.degrees(np.arctan2(*np.diff(along, axis=0)[0][::-1]))
@@ -53,9 +53,9 @@ def test_a_line_down_is_numbered_upright(ax) -> None:
 def test_a_number_hides_no_other_line(ax) -> None:
     """Where two lines come together, both are numbered where they are apart."""
     number_lines(ax, [(1.0, [slanted(1.0, 0.0)]), (2.0, [slanted(1.02, 0.1)])], [])
-    found = middles(ax)
-    assert set(found) == {"1", "2"}
-    assert min(x for x, _ in found.values()) > 1.0
+    centres = middles(ax)
+    assert set(centres) == {"1", "2"}
+    assert min(x for x, _ in centres.values()) > 1.0
 
 
 def test_a_line_without_room_has_no_number(ax) -> None:

@@ -103,8 +103,8 @@ def points(line) -> np.ndarray:
 
 def gaps(ax, axis: int) -> list[float]:
     """Where the dashed straight lines are."""
-    found = [line for line in ax.lines if len(line.get_xdata()) == 2]
-    dashed = [line for line in found if line.get_linestyle() == "--"]
+    straight = [line for line in ax.lines if len(line.get_xdata()) == 2]
+    dashed = [line for line in straight if line.get_linestyle() == "--"]
     return sorted(line.get_data()[axis][0] for line in dashed)
 
 
@@ -273,11 +273,11 @@ def test_a_contact_across_the_end_of_the_period_is_one_band():
     (begin,) = at[(side == 1) & (begins == 1)]
     assert stop < begin
     for ax in time_history(motion, cycles=3.0):
-        found = bands(ax)["right contact"]
+        spans = bands(ax)["right contact"]
         expected = [(0, stop), (begin, stop + 1), (begin + 1, stop + 2), (begin + 2, 3)]
-        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(spans, expected, rtol=1e-12, atol=1e-12)
     length = float(motion["contact_duration_share"][motion["contact_stop"] == "right"].item())
-    assert found[1][1] - found[1][0] == pytest.approx(length, rel=1e-9)
+    assert spans[1][1] - spans[1][0] == pytest.approx(length, rel=1e-9)
     # It is the orbit of the other record, later by 0.83 cycles.
     other = bands(time_history(hitting(), cycles=3.0)[0])["left contact"]
     np.testing.assert_allclose(
@@ -397,13 +397,13 @@ def test_clearances_of_several_motions_and_of_one_bumper():
 
 def stems(ax) -> list[tuple[np.ndarray, np.ndarray]]:
     """Places and heights of the stems of each motion."""
-    found = []
+    tips = []
     for collection in ax.collections:
         ends = np.array(collection.get_segments())
         assert (ends[:, 0, 1] == 0.0).all()
         assert (ends[:, 0, 0] == ends[:, 1, 0]).all()
-        found.append((ends[:, 1, 0], ends[:, 1, 1]))
-    return found
+        tips.append((ends[:, 1, 0], ends[:, 1, 1]))
+    return tips
 
 
 @pytest.mark.parametrize(
@@ -539,12 +539,12 @@ def test_page_shows_whole_periods_and_fits_the_paper():
 def refused(call, begins: str, *holds: str) -> None:
     with pytest.raises(vi.InputError) as caught:
         call()
-    told = str(caught.value)
-    assert told.startswith(begins)
-    assert re.search(r"\buse\b|\bpass\b", told.partition("; ")[2])
-    assert "\n" not in told
+    message = str(caught.value)
+    assert message.startswith(begins)
+    assert re.search(r"\buse\b|\bpass\b", message.partition("; ")[2])
+    assert "\n" not in message
     for part in holds:
-        assert part in told
+        assert part in message
 
 
 @pytest.mark.parametrize("draw", [phase_portrait, hysteresis_cycle, clearances, time_history])

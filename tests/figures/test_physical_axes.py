@@ -47,8 +47,8 @@ def test_curves_in_g_millimetres_and_meganewtons() -> None:
     ):
         for direction in ("forward", "backward"):
             values = factor * quantity(data, name).sel(direction=direction).values
-            found = drawn(ax, f"{direction} sweep")
-            np.testing.assert_allclose(np.sort(found), np.sort(values), rtol=1e-12)
+            curve = drawn(ax, f"{direction} sweep")
+            np.testing.assert_allclose(np.sort(curve), np.sort(values), rtol=1e-12)
             assert ax.get_ylim()[1] > values.max()
 
 
@@ -71,9 +71,9 @@ def test_a_rigid_stop_has_impulses_and_free_flight_is_shifted_by_a_force() -> No
     data = swept(RIGID)
     axes = resonance_curves(data, physical=True)
     assert axes[2].get_ylabel().replace("\n", " ") == "largest contact impulse (MN s)"
-    found = drawn(axes[2], "forward sweep")
+    curve = drawn(axes[2], "forward sweep")
     values = 1e-6 * data["peak_impulse"].sel(stop="right").sel(direction="forward").values
-    np.testing.assert_allclose(np.sort(found), np.sort(values), rtol=1e-12)
+    np.testing.assert_allclose(np.sort(curve), np.sort(values), rtol=1e-12)
     free = vi.sweep(vi.Rig(RIGID.without_bumpers(), "0.12 g"), data["frequency"].values)
     expected = 1e3 * free["peak_displacement"].sel(direction="forward").values
     np.testing.assert_allclose(drawn(axes[1], "free flight"), expected, rtol=1e-9)

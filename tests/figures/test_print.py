@@ -229,7 +229,7 @@ def test_the_checker_sees_what_is_wrong() -> None:
     ax.text(0.5, 0.5, "one above")
     ax.text(0.5, 0.5, "the other")
     ax.set_xlabel("outside")
-    found = problems(figure)
-    assert any(line.startswith("cut: label 'outside'") for line in found)
-    assert any("'one above' and note 'the other'" in line for line in found)
+    report = problems(figure)
+    assert any(line.startswith("cut: label 'outside'") for line in report)
+    assert any("'one above' and note 'the other'" in line for line in report)
     assert {one.kind for one in pieces(figure)} == {"note", "label", "tick"}

@@ -62,12 +62,12 @@ class TestPrimaryResonance:
 
     def test_forward_red_backward_blue_free_black(self):
         for ax in self.axes:
-            found = lines(ax)
-            red, _, blue = to_rgb(found["forward sweep"].get_color())
+            curves = lines(ax)
+            red, _, blue = to_rgb(curves["forward sweep"].get_color())
             assert red > 0.6 > 0.3 > blue
-            red, _, blue = to_rgb(found["backward sweep"].get_color())
+            red, _, blue = to_rgb(curves["backward sweep"].get_color())
             assert blue > 0.6 > 0.3 > red
-            assert same_color(found["free flight"].get_color(), "black")
+            assert same_color(curves["free flight"].get_color(), "black")
 
     def test_values(self):
         data = swept("B2-G1-A3", parameters="identified")
@@ -84,9 +84,9 @@ class TestPrimaryResonance:
     def test_arrows_where_the_sweeps_jump(self):
         data = swept("B2-G1-A3", parameters="identified")
         for ax, curve in zip(self.axes, ("eta_a", "eta_d"), strict=True):
-            found = arrows(ax)
-            assert set(found) == {"forward jump down", "backward jump up"}
-            down, up = found["forward jump down"], found["backward jump up"]
+            jumps = arrows(ax)
+            assert set(jumps) == {"forward jump down", "backward jump up"}
+            down, up = jumps["forward jump down"], jumps["backward jump up"]
             forward, backward = (data[curve].sel(direction=d) for d in ("forward", "backward"))
             at = lambda one, f: float(one.sel(frequency=f, method="nearest"))  # noqa: E731
             assert ends(down) == (
@@ -133,9 +133,9 @@ class TestPrimaryResonance:
 class TestOtherSweeps:
     def test_left_hysteresis_is_told_from_right(self):
         upper, _ = resonance_curves(swept("B3-10mm-A3", 0.5, 4, 0.01))
-        found = shades(upper)
-        assert [hatched for _, _, hatched in found] == [True, False]
-        assert found[0][:2] == pytest.approx((0.675, 0.725))
+        areas = shades(upper)
+        assert [hatched for _, _, hatched in areas] == [True, False]
+        assert areas[0][:2] == pytest.approx((0.675, 0.725))
         assert "left hysteresis (backward above forward)" in legend_texts(upper)
         assert {"forward jump up", "backward jump down"} < set(arrows(upper))
 
@@ -143,8 +143,8 @@ class TestOtherSweeps:
         """Larger accelerations may come with smaller displacements."""
         data = swept("B3-10mm-A3", 0.5, 1.0, 0.01)
         turned = data.assign(eta_d=(data["eta_d"].dims, data["eta_d"].values[::-1]))
-        for given, hatched in ((data, [True, True]), (turned, [True, False])):
-            axes = resonance_curves(given)
+        for dataset, hatched in ((data, [True, True]), (turned, [True, False])):
+            axes = resonance_curves(dataset)
             assert [shades(ax)[0][2] for ax in axes] == hatched
         assert {
             "left hysteresis (backward above forward)",

@@ -93,7 +93,7 @@ class TestFamily:
         assert texts == [*CODES, "backward sweep", "free flight"]
 
     @pytest.mark.parametrize(
-        ("options", "told"),
+        ("options", "message"),
         [
             ({"quantity": "eta"}, "quantity: 'eta' is unknown; use eta_a, eta_d"),
             (
@@ -103,10 +103,10 @@ class TestFamily:
             ({"colours": {"B1": "red"}}, "colours: 'B1' is not a rig of data"),
         ],
     )
-    def test_refusals(self, options, told):
+    def test_refusals(self, options, message):
         with pytest.raises(vi.InputError) as caught:
             resonance_family(swept(), **options)
-        assert told in str(caught.value)
+        assert message in str(caught.value)
 
     def test_refuses_one_rig(self):
         with pytest.raises(vi.InputError, match="data: these are not sweeps of rigs"):

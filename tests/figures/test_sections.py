@@ -135,7 +135,7 @@ def test_a_logarithmic_axis():
 
 
 @pytest.mark.parametrize(
-    ("data", "options", "told"),
+    ("data", "options", "message"),
     [
         (lambda: branch(), {}, "data: this is a dataset of branches; draw it with figures.br"),
         (lambda: xr.Dataset(), {}, "data: this is not a bifurcation diagram"),
@@ -144,8 +144,8 @@ def test_a_logarithmic_axis():
         (lambda: diagram(), {"axes": [None]}, "axes: 1 Axes; pass 3"),
     ],
 )
-def test_refused(data, options, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_refused(data, options, message):
+    with pytest.raises(vi.InputError, match=message):
         section_diagram(data(), **options)
 
 

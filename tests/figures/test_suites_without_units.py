@@ -21,12 +21,12 @@ UNIT = re.compile(r"\((?:mm|m|g|kN|N|m/s²|m/s|s|Hz|–|)\)|\d (?:mm|m|g|kN|N|m/
 def texts(drawn):
     axes = list(np.ravel(drawn))
     every = [*axes, *(child for ax in axes for child in ax.child_axes)]
-    found = [text for ax in every for text in (ax.get_xlabel(), ax.get_ylabel())]
-    found += [ax.get_title() for ax in axes]
+    labels = [text for ax in every for text in (ax.get_xlabel(), ax.get_ylabel())]
+    labels += [ax.get_title() for ax in axes]
     for ax in every:
-        found += [text.get_text() for text in ax.texts]
-        found += [text.get_text() for text in ax.get_legend().texts] if ax.get_legend() else []
-    return [text for text in found if text]
+        labels += [text.get_text() for text in ax.texts]
+        labels += [text.get_text() for text in ax.get_legend().texts] if ax.get_legend() else []
+    return [text for text in labels if text]
 
 
 def record():

@@ -189,8 +189,8 @@ def test_a_peak_at_a_jump_of_the_acceleration_has_its_sign():
 
 def marks(ax) -> list[tuple[np.ndarray, str]]:
     """Places and colours of the marks: beginnings, ends, and the peaks of the acceleration."""
-    found = [c for c in ax.collections if len(c.get_offsets()) and not c.get_label()[0].isalpha()]
-    return [(np.asarray(c.get_offsets()), to_hex(c.get_facecolor()[0])) for c in found]
+    points = [c for c in ax.collections if len(c.get_offsets()) and not c.get_label()[0].isalpha()]
+    return [(np.asarray(c.get_offsets()), to_hex(c.get_facecolor()[0])) for c in points]
 
 
 def test_several_motions_have_strips_of_their_own():

@@ -33,8 +33,8 @@ def labels(drawn):
 
 
 def legends(drawn):
-    found = [ax.get_legend() for ax in np.ravel(drawn) if ax.get_legend()]
-    return " ".join(text.get_text() for legend in found for text in legend.texts)
+    boxes = [ax.get_legend() for ax in np.ravel(drawn) if ax.get_legend()]
+    return " ".join(text.get_text() for legend in boxes for text in legend.texts)
 
 
 def test_resonance_curves_over_omega(swept):

@@ -28,13 +28,13 @@ def rate(t, y, omega):
 def made(frequency, cycles, samples):
     omega, period = 2.0 * np.pi * frequency, 1.0 / frequency
     time = np.arange(cycles * samples) * period / samples
-    found = solve_ivp(
+    solution = solve_ivp(
         rate, (0.0, time[-1]), np.zeros(4), args=(omega,), t_eval=time, max_step=period / 300,
         rtol=1e-8, atol=1e-11,
     )  # fmt: skip
     base = SIZE * np.sin(omega * time)
-    slopes = [rate(t, y, omega)[1] for t, y in zip(time, found.y.T, strict=True)]
-    return time, found.y[0], np.array(slopes) + base, base
+    slopes = [rate(t, y, omega)[1] for t, y in zip(time, solution.y.T, strict=True)]
+    return time, solution.y[0], np.array(slopes) + base, base
 
 
 @pytest.mark.full
@@ -58,8 +58,8 @@ def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     dampings = ["stops.right.damping", "stops.left.damping"]
     free = ["isolator.stiffness", "isolator.damping", *stops, *dampings]
     with pytest.warns(vi.InputWarning, match="the displacement of the mass"):
-        found = vi.identify(guess, path, free, profiles=False, tried=0, starts=1)
-    values, errors = found.fitted_value.values, found.standard_error.values
+        fit = vi.identify(guess, path, free, profiles=False, tried=0, starts=1)
+    values, errors = fit.fitted_value.values, fit.standard_error.values
     assert values[:6] == pytest.approx(TRUE, rel=0.03)
     assert values[6:] == pytest.approx([RIGHT[1], LEFT[1]], rel=0.15)
     true = np.concatenate([TRUE, [RIGHT[1], LEFT[1]]])
@@ -80,7 +80,7 @@ def test_frequencies_that_were_held_twice_count_twice(tmp_path):
             rows.append(f"{f},up,{d:.5f},{'nan' if f == 1.0 else f'{a:.5f}'}")
     path = tmp_path / "twice.csv"
     path.write_text("\n".join(rows))
-    found = vi.identify(
+    fit = vi.identify(
         vi.Rig(case.oscillator, case.amplitude),
         path,
         "isolator.stiffness,gap",
@@ -88,5 +88,5 @@ def test_frequencies_that_were_held_twice_count_twice(tmp_path):
         starts=1,
         profiles=False,
     )
-    assert found.sizes["point"] == 2 * (2 * swept.sizes["frequency"] - 1)
-    assert found.fitted_value.values == pytest.approx([31.9e3, 0.01], rel=0.01)
+    assert fit.sizes["point"] == 2 * (2 * swept.sizes["frequency"] - 1)
+    assert fit.fitted_value.values == pytest.approx([31.9e3, 0.01], rel=0.01)

@@ -23,13 +23,13 @@ def shaken(case, frequency=1.0):
     return vi.Harmonic(case.amplitude, frequency)
 
 
-def measured(found, point):
+def measured(solution, point):
     """Excursions of displacement and acceleration of an orbit."""
     row = np.empty(steady_response.RESULTS)
-    section = found.section
+    section = solution.section
     system = section.family.system(float(point[-1]))
     orbit.measure_orbit(
-        system, section.family.phase, point, found.facts.copy(), section.period, MAX_EVENTS, row
+        system, section.family.phase, point, solution.facts.copy(), section.period, MAX_EVENTS, row
     )
     return np.array(
         [
@@ -47,23 +47,25 @@ def by_the_implicit_function_theorem(case, frequency, name, state):
     """
     fam = family(vi.Rig(case.oscillator, shaken(case, frequency)), name)
     now = fam.value
-    found = first_orbit(fam, (0.5 * now, 1.5 * now), vi.State(*state), 1, symmetric=False)
-    states = len(found.map_derivative)
+    solution = first_orbit(fam, (0.5 * now, 1.5 * now), vi.State(*state), 1, symmetric=False)
+    states = len(solution.map_derivative)
     step = 1e-6 * now
 
     def moved(by):
-        point = found.point.copy()
+        point = solution.point.copy()
         point[:states] += by[:states]
         point[-1] += by[-1]
         return point
 
     along = np.zeros(states + 1)
     along[-1] = step
-    images = [evaluated(found.section, moved(s * along), found.facts[MODE])[2] for s in (1, -1)]
+    images = [
+        evaluated(solution.section, moved(s * along), solution.facts[MODE])[2] for s in (1, -1)
+    ]
     of_parameter = (images[0] - images[1])[:states] / 2.0
-    along[:states] = np.linalg.solve(np.eye(states) - found.map_derivative, of_parameter)
-    ends = [measured(found, moved(s * along)) for s in (1, -1)]
-    return (ends[0] - ends[1]) / (2e-6 * measured(found, found.point))
+    along[:states] = np.linalg.solve(np.eye(states) - solution.map_derivative, of_parameter)
+    ends = [measured(solution, moved(s * along)) for s in (1, -1)]
+    return (ends[0] - ends[1]) / (2e-6 * measured(solution, solution.point))
 
 
 def by_the_fit(case, grid, name):
@@ -120,8 +122,8 @@ def test_differences_behind_a_grazing(share, name):
         < 0.1 * row[steady_response.U_MOST]
     )
     exact = by_the_implicit_function_theorem(GRAZED, frequency, name, state[2:4])
-    found = by_the_fit(GRAZED, np.array([frequency]), name)
-    assert found == pytest.approx(exact, rel=5e-6, abs=1e-8)
+    slopes = by_the_fit(GRAZED, np.array([frequency]), name)
+    assert slopes == pytest.approx(exact, rel=5e-6, abs=1e-8)
 
 
 def test_differences_before_a_grazing_are_those_of_free_flight():
@@ -134,9 +136,9 @@ def test_differences_before_a_grazing_are_those_of_free_flight():
     displacement = np.array([-k * real, -c * omega * imaginary]) / size
     force = np.array([k * k, (c * omega) ** 2]) / (k * k + imaginary**2)
     for i, name in enumerate(("isolator.stiffness", "isolator.damping")):
-        found = by_the_fit(GRAZED, np.array([frequency]), name)
+        slopes = by_the_fit(GRAZED, np.array([frequency]), name)
         exact = [displacement[i], displacement[i] + force[i]]
-        assert found == pytest.approx(exact, rel=1e-6)
+        assert slopes == pytest.approx(exact, rel=1e-6)
     for name in ("stops.stiffness", "stops.damping", "gap"):
         assert (by_the_fit(GRAZED, np.array([frequency]), name) == 0.0).all()
 

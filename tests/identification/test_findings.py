@@ -20,29 +20,29 @@ GRID = np.arange(0.8, 3.0, 0.1)
 def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
     start = UNEVEN.replace(right=FAR, left=NEAR)
-    found = vi.identify(start, data, "stops.right.gap,stops.left.gap", **QUICK)
+    fit = vi.identify(start, data, "stops.right.gap,stops.left.gap", **QUICK)
     # The fit keeps to the sides of the start: the truth lies outside both intervals.
-    low, high = found.interval.values.T
+    low, high = fit.interval.values.T
     assert ((np.array([0.009, 0.012]) < low) | (np.array([0.009, 0.012]) > high)).all()
-    (other,) = found.alternative_value.values
-    assert other == pytest.approx(found.fitted_value.values[::-1], rel=1e-9)
-    assert float(found.alternative_rise[0]) < 0.01
-    told = "with right and left exchanged, the rig fits equally well: stops.right.gap 9."
-    assert told in found.findings
-    assert "stops.left.gap 12." in found.findings or "stops.left.gap 11.9" in found.findings
+    (other,) = fit.alternative_value.values
+    assert other == pytest.approx(fit.fitted_value.values[::-1], rel=1e-9)
+    assert float(fit.alternative_rise[0]) < 0.01
+    note = "with right and left exchanged, the rig fits equally well: stops.right.gap 9."
+    assert note in fit.findings
+    assert "stops.left.gap 12." in fit.findings or "stops.left.gap 11.9" in fit.findings
 
 
 def test_maxima_and_minima_tell_the_sides():
     data = curves(UNEVEN, "0.04 g", 0.01, names=PEAKS, frequencies=GRID)
-    found = vi.identify(UNEVEN, data, "stops.right.gap,stops.left.gap", **QUICK)
-    assert "exchanged" not in found.findings
-    assert "alternative_value" not in found
+    fit = vi.identify(UNEVEN, data, "stops.right.gap,stops.left.gap", **QUICK)
+    assert "exchanged" not in fit.findings
+    assert "alternative_value" not in fit
 
 
 def test_sides_that_only_the_given_values_tell_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(UNEVEN, data, "stops.right.gap", **QUICK)
-    assert "only the values that you passed determine which side is the right one" in found.findings
+    fit = vi.identify(UNEVEN, data, "stops.right.gap", **QUICK)
+    assert "only the values that you passed determine which side is the right one" in fit.findings
 
 
 @pytest.fixture(scope="module")
@@ -55,12 +55,12 @@ def undamped():
 def test_a_damping_at_its_bound_is_zero_and_as_uncertain_from_there(undamped, start):
     bumper = CASE.oscillator.right.replace(damping=start)
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
-    found = vi.identify(rig, undamped, "stops.damping", tried=0, starts=1)
-    assert found.fitted_value.values[0] == 0.0
-    assert vi.fitted_rig(found).oscillator.right.damping == 0.0
-    assert 100.0 < found.standard_error.values[0] < 300.0
-    low, high = found.interval.values[0]
-    assert (low, list(found.interval_open.values[0])) == (0.0, [1, 0])
+    fit = vi.identify(rig, undamped, "stops.damping", tried=0, starts=1)
+    assert fit.fitted_value.values[0] == 0.0
+    assert vi.fitted_rig(fit).oscillator.right.damping == 0.0
+    assert 100.0 < fit.standard_error.values[0] < 300.0
+    low, high = fit.interval.values[0]
+    assert (low, list(fit.interval_open.values[0])) == (0.0, [1, 0])
     assert 60.0 < high < 600.0
 
 
@@ -68,9 +68,9 @@ def test_a_contact_of_hertz_inherits_no_certainty(undamped):
     bumper = CASE.oscillator.right.replace(damping=3.4e-26)
     contact = hertzian(CASE.oscillator.replace(right=bumper, left=bumper), 2e-3)
     few = undamped.sel(frequency=[1.5, 1.7, 1.9], method="nearest")
-    found = vi.identify(contact, few, "stops.dissipation", **QUICK)
+    fit = vi.identify(contact, few, "stops.dissipation", **QUICK)
     # That of the dashpot, over the force of the spring at that depth.
-    assert 0.01 < found.standard_error.values[0] < 10.0
+    assert 0.01 < fit.standard_error.values[0] < 10.0
 
 
 @pytest.mark.parametrize("name", [n for n in PARAMETERS if n not in ("frequency", "amplitude")])
@@ -106,17 +106,17 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     data = curves(rig, "0.04 g", 0.02, frequencies=grid)
     farthest = 0.5 * float(vi.sweep(vi.Rig(rig, "0.04 g"), grid).displacement_excursion.max())
     free = "isolator.stiffness,stops.stiffness,stops.damping,gap"
-    found = vi.identify(rig, data, free, tried=0, starts=1)
-    low = float(found.interval.sel(parameter="gap", bound="low"))
+    fit = vi.identify(rig, data, free, tried=0, starts=1)
+    low = float(fit.interval.sel(parameter="gap", bound="low"))
     assert 0.9 * farthest < low < farthest
-    assert found.interval_open.sel(parameter="gap").values.tolist() == [0, 1]
+    assert fit.interval_open.sel(parameter="gap").values.tolist() == [0, 1]
     for name in ("stops.stiffness", "stops.damping"):
-        assert found.interval_open.sel(parameter=name).values.all()
+        assert fit.interval_open.sel(parameter=name).values.all()
     known = (
         "gap (gap of each side) has only a lower limit: in these tests the mass does not touch "
         f"the stop, and all values from {1e3 * low:.3g} mm upward fit equally well"
     )
-    lines = found.findings.splitlines()
+    lines = fit.findings.splitlines()
     assert any(line.startswith(known) for line in lines)
     untold = "is not determined: in these tests the mass does not touch the stop"
     assert sum(untold in line for line in lines) == 2
@@ -140,9 +140,9 @@ def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
     with pytest.warns(
         vi.InputWarning, match=r"the amplitude is 0\.04 g, from the data; .* not used"
     ):
-        found = vi.identify(vi.Rig(CASE.oscillator, shaking), data, "isolator.stiffness", **QUICK)
-    assert "test 1: the amplitude is 0.04 g, from the data; " in found.findings
-    assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=0.01)
+        fit = vi.identify(vi.Rig(CASE.oscillator, shaking), data, "isolator.stiffness", **QUICK)
+    assert "test 1: the amplitude is 0.04 g, from the data; " in fit.findings
+    assert fit.fitted_value.values[0] == pytest.approx(31900.0, rel=0.01)
     rounded = data.assign_attrs(amplitude=0.3923)
     same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), rounded, "isolator.stiffness", **QUICK)
     assert "not used" not in same.findings
@@ -150,21 +150,21 @@ def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
 
 def test_the_amplitude_of_a_computed_sweep_is_its_own():
     data = vi.sweep(vi.Rig(CASE.oscillator, "0.04 g"), GRID)
-    told = r"the amplitude is 0\.04 g, from the data; the amplitude of"
-    with pytest.warns(vi.InputWarning, match=told):
-        found = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "isolator.stiffness", **QUICK)
-    assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=1e-6)
-    assert vi.fitted_rig(found).amplitude == pytest.approx(0.04 * 9.80665)
+    message = r"the amplitude is 0\.04 g, from the data; the amplitude of"
+    with pytest.warns(vi.InputWarning, match=message):
+        fit = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "isolator.stiffness", **QUICK)
+    assert fit.fitted_value.values[0] == pytest.approx(31900.0, rel=1e-6)
+    assert vi.fitted_rig(fit).amplitude == pytest.approx(0.04 * 9.80665)
 
 
 def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
     data = vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic("0.04 g", 1.5)), 6, samples=40)
-    given = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))
-    told = "the frequency is 1.5 Hz, from the data; the frequency of the"
-    with pytest.warns(vi.InputWarning, match=told):
-        found = vi.identify(given, data, "isolator.stiffness", **QUICK)
+    rig = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))
+    message = "the frequency is 1.5 Hz, from the data; the frequency of the"
+    with pytest.warns(vi.InputWarning, match=message):
+        fit = vi.identify(rig, data, "isolator.stiffness", **QUICK)
     assert "the amplitude is 0.04 g, from the measured base; the amplitude of the rig, 0.06 g" in (
-        found.findings
+        fit.findings
     )
     same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), data, "isolator.stiffness", **QUICK)
     assert "not used" not in same.findings
@@ -172,11 +172,11 @@ def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
 
 def test_the_table_of_a_fit_has_its_intervals(tmp_path):
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(CASE.oscillator, data, "isolator.stiffness,gap", tried=0, starts=1)
-    table = vi.to_table(found)
-    assert list(table["interval.low"]) == found.interval.sel(bound="low").values.tolist()
-    assert list(table["interval.high"]) == found.interval.sel(bound="high").values.tolist()
-    vi.save(found, tmp_path / "fit.csv")
+    fit = vi.identify(CASE.oscillator, data, "isolator.stiffness,gap", tried=0, starts=1)
+    table = vi.to_table(fit)
+    assert list(table["interval.low"]) == fit.interval.sel(bound="low").values.tolist()
+    assert list(table["interval.high"]) == fit.interval.sel(bound="high").values.tolist()
+    vi.save(fit, tmp_path / "fit.csv")
     assert "interval.low" in (tmp_path / "fit.csv").read_text().splitlines()[0]
 
 
@@ -195,7 +195,7 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
 
 
 @pytest.mark.parametrize(
-    ("asked", "told"),
+    ("asked", "message"),
     [
         ({"free": {"gap": {"begin": 1}}}, "free['gap']: the key 'begin' is unknown"),
         ({"free": {"gap": [1, 2, 3]}}, "a range (low, high)"),
@@ -210,17 +210,17 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
         ({"window": 0}, "window: 0"),
     ],
 )
-def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, told):
+def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, message):
     data = curves(CASE.oscillator, "0.04 g", frequencies=GRID[:3])
     with pytest.raises(vi.InputError) as error:
         vi.identify(CASE.oscillator, data, **{"free": "gap", **QUICK, **asked})
-    assert told in str(error.value)
+    assert message in str(error.value)
 
 
 def test_names_of_each_may_be_a_text_with_commas():
     settings = {name: vi.Rig(CASE.oscillator, vi.Harmonic(0.4, 1.0)) for name in ("A", "B")}
-    found = frees("gap, isolator.stiffness", settings, "gap", None)
-    assert [one.key for one in found] == ["gap[A]", "gap[B]", "isolator.stiffness"]
+    parameters = frees("gap, isolator.stiffness", settings, "gap", None)
+    assert [one.key for one in parameters] == ["gap[A]", "gap[B]", "isolator.stiffness"]
     assert set(SENSORS) & set(PARAMETERS) == set()
 
 

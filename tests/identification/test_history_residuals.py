@@ -41,25 +41,25 @@ def motion(frequency, cycles, skip=0, samples=60):
     return made.isel(time=slice(skip * samples, None))
 
 
-def away(found):
-    return (found.fitted_value.values - TRUE) / found.standard_error.values
+def away(fit):
+    return (fit.fitted_value.values - TRUE) / fit.standard_error.values
 
 
 @pytest.mark.full
 def test_unequal_gaps_and_bumpers_from_a_motion_that_hits_both():
     data = record(motion(1.5, 24, skip=8), 0.01)
-    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
-    assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.02
-    assert np.abs(away(found)).max() < 3.5
-    assert float(found.noise[0]) == pytest.approx(1.0, rel=0.25)
-    assert found.test_kind.values.tolist() == ["history"]
+    fit = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
+    assert np.abs(fit.fitted_value.values / TRUE - 1.0).max() < 0.02
+    assert np.abs(away(fit)).max() < 3.5
+    assert float(fit.noise[0]) == pytest.approx(1.0, rel=0.25)
+    assert fit.test_kind.values.tolist() == ["history"]
 
 
 def test_without_noise():
     data = record(motion(1.5, 12, skip=6, samples=100), 0.0)
-    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
+    fit = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     # Between two of its samples a contact's acceleration is a straight line.
-    assert found.fitted_value.values == pytest.approx(TRUE, rel=2e-3)
+    assert fit.fitted_value.values == pytest.approx(TRUE, rel=2e-3)
 
 
 @pytest.mark.full
@@ -67,14 +67,14 @@ def test_displacement_alone_without_the_base():
     data = record(motion(1.5, 16, skip=8), 0.005, ("displacement",))
     with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
         vi.identify(START, data, FREE)
-    found = vi.identify(vi.Rig(START, "0.05 g"), data, FREE, profiles=False, tried=0, starts=1)
-    assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
+    fit = vi.identify(vi.Rig(START, "0.05 g"), data, FREE, profiles=False, tried=0, starts=1)
+    assert np.abs(fit.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
 def test_steady_motions_need_no_initial_states():
     data = record(motion(1.5, 30, skip=24), 0.01)
-    found = vi.identify(START, data, FREE, steady=True, profiles=False, tried=0, starts=1)
-    assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
+    fit = vi.identify(START, data, FREE, steady=True, profiles=False, tried=0, starts=1)
+    assert np.abs(fit.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
 @pytest.mark.full
@@ -90,18 +90,18 @@ def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
     data["base_acceleration"] = ("time", shaken)
     (test,) = fit_inputs.tests_of(START, data, None, None, False)
     assert isinstance(test.shaking, vi.Record)
-    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
-    assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.03
+    fit = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
+    assert np.abs(fit.fitted_value.values / TRUE - 1.0).max() < 0.03
 
 
 def test_a_sensor_with_an_offset_and_a_wrong_scale():
     data = record(motion(1.5, 16, skip=8), 0.002)
     data["displacement"] = 1.04 * data.displacement + 5e-4
     free = ["stops.left.gap", "displacement_scale", "displacement_offset"]
-    found = vi.identify(
+    fit = vi.identify(
         RIG.replace(left=LEFT.replace(gap="7 mm")), data, free, profiles=False, tried=0, starts=1
     )
-    assert found.fitted_value.values == pytest.approx([6e-3, 1.04, 5e-4], rel=0.02)
+    assert fit.fitted_value.values == pytest.approx([6e-3, 1.04, 5e-4], rel=0.02)
 
 
 def test_each_windows_state_moves_its_own_residuals():
@@ -133,6 +133,6 @@ def test_each_channel_is_weighed_by_its_own_noise():
     draw = np.random.default_rng(3)
     clean = made["acceleration"].values
     data["acceleration"] = ("time", clean + 0.06 * clean.std() * draw.normal(size=len(clean)))
-    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
-    assert np.abs(away(found)).max() < 3.0
-    assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.01
+    fit = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
+    assert np.abs(away(fit)).max() < 3.0
+    assert np.abs(fit.fitted_value.values / TRUE - 1.0).max() < 0.01

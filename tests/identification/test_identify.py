@@ -20,7 +20,7 @@ def errors(result, rig):
 def test_without_noise_to_rounding_from_half_as_much_again(code):
     case = vi.laboratory.case(code, "identified")
     start = off(case.oscillator, (1.5, 0.5, 1.5, 0.5, 1.5))
-    found = vi.identify(
+    fit = vi.identify(
         start,
         curves(case.oscillator, case.amplitude),
         FREE,
@@ -29,8 +29,8 @@ def test_without_noise_to_rounding_from_half_as_much_again(code):
         starts=sample(3, 1),
         threads=2,
     )
-    assert np.abs(errors(found, case.oscillator)).max() < 1e-6
-    assert found.attrs["starts_alike"] >= 1
+    assert np.abs(errors(fit, case.oscillator)).max() < 1e-6
+    assert fit.attrs["starts_alike"] >= 1
 
 
 @pytest.mark.parametrize("code", sample(CASES, CASES[1:]))
@@ -38,16 +38,16 @@ def test_with_noise_within_its_own_errors(code):
     case = vi.laboratory.case(code, "identified")
     start = off(case.oscillator, (0.5, 1.5, 0.5, 1.5, 1.2))
     data = curves(case.oscillator, case.amplitude, 0.02, seed=4)
-    found = vi.identify(
+    fit = vi.identify(
         start, data, FREE, profiles=False, tried=sample(8, 3), starts=sample(2, 1), threads=2
     )
-    away = (found.fitted_value.values - truth(case.oscillator)) / found.standard_error.values
+    away = (fit.fitted_value.values - truth(case.oscillator)) / fit.standard_error.values
     assert np.abs(away).max() < 3.0
-    assert float(found.noise[0]) == pytest.approx(0.02, rel=0.25)
+    assert float(fit.noise[0]) == pytest.approx(0.02, rel=0.25)
     # Two of the bound of Cramér and Rao; of the bumper's damping that is 15 %.
-    assert (np.abs(errors(found, case.oscillator)) < [0.011, 0.019, 0.038, 0.3, 0.009]).all()
-    rig = vi.fitted_rig(found)
-    assert rig.oscillator.right.gap == pytest.approx(found.fitted_value.values[4])
+    assert (np.abs(errors(fit, case.oscillator)) < [0.011, 0.019, 0.038, 0.3, 0.009]).all()
+    rig = vi.fitted_rig(fit)
+    assert rig.oscillator.right.gap == pytest.approx(fit.fitted_value.values[4])
     assert rig.amplitude == case.amplitude
 
 
@@ -60,13 +60,13 @@ def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
     for seed in range(sample(20, 1)):
         data = curves(case.oscillator, case.amplitude, 0.02, seed, PEAKS, cycles=10)
         start = off(case.oscillator, np.random.default_rng(seed).choice([0.5, 1.5], 5))
-        found = vi.identify(start, data, FREE, profiles=False, tried=8, starts=2, threads=2)
-        away = errors(found, case.oscillator)
+        fit = vi.identify(start, data, FREE, profiles=False, tried=8, starts=2, threads=2)
+        away = errors(fit, case.oscillator)
         kept.append((np.abs(away[:4]) < [0.01, 0.01, 0.01, 0.1]).all())
-        deviation = found.standard_error.values / truth(case.oscillator)
+        deviation = fit.standard_error.values / truth(case.oscillator)
         assert (np.abs(away) < 4.0 * deviation).all()
         assert (deviation < [0.002, 0.003, 0.005, 0.04, 0.002]).all()
-        assert "times the noise" not in found.attrs["findings"]
+        assert "times the noise" not in fit.attrs["findings"]
     assert np.mean(kept) >= 0.95
 
 
@@ -74,13 +74,13 @@ def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
 def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp_path):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=5)
-    found = vi.identify(case.oscillator, data, FREE[:3], draws=60, tried=0, starts=1, threads=2)
-    half = 0.5 * np.diff(found.interval.values, axis=1)[:, 0]
-    assert half == pytest.approx(1.97 * found.standard_error.values, rel=0.1)
-    drawn = found.bootstrap_value.std("bootstrap_draw").values
-    assert drawn == pytest.approx(found.standard_error.values, rel=0.35)
-    vi.save(found, tmp_path / "fit.nc")
-    assert vi.fitted_rig(vi.load(tmp_path / "fit.nc")) == vi.fitted_rig(found)
+    fit = vi.identify(case.oscillator, data, FREE[:3], draws=60, tried=0, starts=1, threads=2)
+    half = 0.5 * np.diff(fit.interval.values, axis=1)[:, 0]
+    assert half == pytest.approx(1.97 * fit.standard_error.values, rel=0.1)
+    drawn = fit.bootstrap_value.std("bootstrap_draw").values
+    assert drawn == pytest.approx(fit.standard_error.values, rel=0.35)
+    vi.save(fit, tmp_path / "fit.nc")
+    assert vi.fitted_rig(vi.load(tmp_path / "fit.nc")) == vi.fitted_rig(fit)
 
 
 def test_two_tests_share_a_bumper_and_have_their_own_isolator():
@@ -92,18 +92,18 @@ def test_two_tests_share_a_bumper_and_have_their_own_isolator():
     }
     free = {"isolator.stiffness": "29 kN/m", "stops.stiffness": "450 kN/m"}
     rigs = {"A3": one.oscillator, "A2": other.oscillator}
-    found = vi.identify(
+    fit = vi.identify(
         rigs, tests, free, each=["isolator.stiffness"], tried=0, starts=1, profiles=False
     )
-    assert found.parameter.values.tolist() == [
+    assert fit.parameter.values.tolist() == [
         "isolator.stiffness[A3]",
         "isolator.stiffness[A2]",
         "stops.stiffness",
     ]
-    assert found.fitted_value.values == pytest.approx([26800.0, 31900.0, 510000.0], rel=0.02)
-    assert vi.fitted_rig(found, "A2").oscillator.isolator.stiffness == found.fitted_value.values[1]
+    assert fit.fitted_value.values == pytest.approx([26800.0, 31900.0, 510000.0], rel=0.02)
+    assert vi.fitted_rig(fit, "A2").oscillator.isolator.stiffness == fit.fitted_value.values[1]
     with pytest.raises(vi.InputError, match="test: missing"):
-        vi.fitted_rig(found)
+        vi.fitted_rig(fit)
 
 
 def test_an_outlier_does_little():
@@ -113,7 +113,7 @@ def test_an_outlier_does_little():
     data.acceleration_excursion[1, 5] *= 0.5
     shift = []
     for robust in (True, False):
-        found = vi.identify(
+        fit = vi.identify(
             case.oscillator,
             data,
             "isolator.stiffness,isolator.damping,gap",
@@ -123,7 +123,7 @@ def test_an_outlier_does_little():
             profiles=False,
         )
         true = truth(case.oscillator)[[0, 1, 4]]
-        shift.append(np.abs(found.fitted_value.values / true - 1.0).max())
+        shift.append(np.abs(fit.fitted_value.values / true - 1.0).max())
     assert shift[0] < 0.01 < 0.02 < shift[1] + 0.012
 
 
@@ -167,8 +167,8 @@ def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
     data["displacement_min"] = 1.03 * data.displacement_min + 4e-4
     start = rig.replace(right=stiff.replace(gap="10 mm"), left=soft.replace(gap="10 mm"))
     free = ["stops.right.gap", "stops.left.gap", "displacement_scale", "displacement_offset"]
-    found = vi.identify(start, data, free, tried=0, starts=1, profiles=False)
-    assert found.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
+    fit = vi.identify(start, data, free, tried=0, starts=1, profiles=False)
+    assert fit.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
 
 
 def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
@@ -183,15 +183,15 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         turned[f"{kind}_max"].loc[at], turned[f"{kind}_min"].loc[at] = -least, -most
     start = off(case.oscillator, (1.02, 1.0, 0.97, 1.0, 1.01))
     for one in (data, turned):
-        found = vi.identify(
+        fit = vi.identify(
             start, one, "isolator.stiffness,stops.stiffness,gap", tried=0, starts=1, profiles=False
         )
-        away = found.fitted_value.values / truth(case.oscillator)[[0, 2, 4]] - 1.0
+        away = fit.fitted_value.values / truth(case.oscillator)[[0, 2, 4]] - 1.0
         assert np.abs(away).max() < 1e-6
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         ({"free": "stifness"}, "free: 'stifness'"),
         ({"free": ""}, "free: ''"),
@@ -205,12 +205,12 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         ({"data": 3}, "int is not a measurement"),
     ],
 )
-def test_what_cannot_be_fitted_is_refused(change, told):
+def test_what_cannot_be_fitted_is_refused(change, message):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     asked = {"data": curves(case.oscillator, case.amplitude), "free": "gap", **change}
     with pytest.raises(vi.InputError) as error:
         vi.identify(case.oscillator, asked.pop("data"), asked.pop("free"), **asked)
-    assert told in str(error.value)
+    assert message in str(error.value)
 
 
 def test_millimetres_taken_as_metres_are_noticed():
@@ -226,21 +226,21 @@ def test_too_few_points_and_no_amplitude():
     data = curves(case.oscillator, case.amplitude).isel(frequency=[3], direction=[0])
     with pytest.raises(vi.InputError, match="5 unknowns"):
         vi.identify(case.oscillator, data, FREE)
-    found = vi.identify(case.oscillator, data, "gap", tried=0, starts=1, profiles=False)
-    assert found.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
+    fit = vi.identify(case.oscillator, data, "gap", tried=0, starts=1, profiles=False)
+    assert fit.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
     del data.attrs["amplitude"]
     with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
         vi.identify(case.oscillator, data, "gap")
 
 
 @pytest.mark.parametrize(
-    ("low", "told"),
+    ("low", "beginning"),
     [
         (1, "twice: forward, 3 Hz: 1 of 4 values lies far from the others, as if from another"),
         (2, "twice: forward, 3 Hz: its 4 values lie far apart, as if from two motions"),
     ],
 )
-def test_a_value_of_another_motion_is_named(low, told):
+def test_a_value_of_another_motion_is_named(low, beginning):
     draw = np.random.default_rng(2)
     values = draw.normal(1.0, 0.02, size=(1, 5, 4))
     values[0, 4, :low] = 0.1
@@ -249,7 +249,7 @@ def test_a_value_of_another_motion_is_named(low, told):
         {"direction": ["forward"], "frequency": [1.0, 1.5, 2.0, 2.5, 3.0]},
     )
     (line,) = stray_values("twice", data)
-    assert line.startswith(told)
+    assert line.startswith(beginning)
     assert stray_values("once", data.isel(repeat=3, drop=True)) == []
 
 
@@ -266,5 +266,5 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
         vi.InputWarning, match="columns were not understood and were left out: Kanal 7"
     ):
         fit = vi.identify(rig, path, "isolator.stiffness", tried=0, starts=1, profiles=False)
-    told = "own: columns of the file were not understood and were left out: 'Kanal 7'"
-    assert told in fit.attrs["findings"]
+    note = "own: columns of the file were not understood and were left out: 'Kanal 7'"
+    assert note in fit.attrs["findings"]

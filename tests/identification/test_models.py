@@ -30,20 +30,18 @@ def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
         starts=1,
     )
     assert "the residuals are not noise" not in again.attrs["findings"]
-    found = vi.compare_fits({"linear": linear, "Hertz": again})
-    assert found.model.values.tolist() == ["Hertz", "linear"]
-    assert "the data do not support this model" in found.attrs["findings"]
+    comparison = vi.compare_fits({"linear": linear, "Hertz": again})
+    assert comparison.model.values.tolist() == ["Hertz", "linear"]
+    assert "the data do not support this model" in comparison.attrs["findings"]
 
 
 def test_a_bumper_that_is_never_touched_is_not_determined():
     grid = np.arange(3.0, 5.0, 0.1)
     data = curves(CASE.oscillator, CASE.amplitude, 0.02, frequencies=grid)
-    found = vi.identify(
-        CASE.oscillator, data, "isolator.stiffness,stops.damping", tried=0, starts=1
-    )
-    assert "stops.damping (damping of both bumpers) is" in found.attrs["findings"]
-    assert found.interval_open.sel(parameter="stops.damping").values.any()
-    assert not found.interval_open.sel(parameter="isolator.stiffness").values.any()
+    fit = vi.identify(CASE.oscillator, data, "isolator.stiffness,stops.damping", tried=0, starts=1)
+    assert "stops.damping (damping of both bumpers) is" in fit.attrs["findings"]
+    assert fit.interval_open.sel(parameter="stops.damping").values.any()
+    assert not fit.interval_open.sel(parameter="isolator.stiffness").values.any()
 
 
 @pytest.mark.full
@@ -51,7 +49,7 @@ def test_the_posterior_is_as_wide_as_the_covariance():
     pytest.importorskip("emcee")
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=1)
-    found = vi.identify(
+    fit = vi.identify(
         case.oscillator,
         data,
         "isolator.stiffness,gap",
@@ -60,8 +58,8 @@ def test_the_posterior_is_as_wide_as_the_covariance():
         posterior=600,
         profiles=False,
     )
-    drawn = found.posterior_value.std("posterior_draw").values
-    assert drawn == pytest.approx(found.standard_error.values, rel=0.3)
+    drawn = fit.posterior_value.std("posterior_draw").values
+    assert drawn == pytest.approx(fit.standard_error.values, rel=0.3)
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
@@ -73,7 +71,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         draw = np.random.default_rng(seed)
         noisy = {n: clean[n] * (1.0 + 0.02 * draw.normal(size=(2, 46))) for n in EXCURSIONS}
         data = as_measured(xr.Dataset(noisy).assign_attrs(amplitude=case.amplitude))
-        found = vi.identify(
+        fit = vi.identify(
             case.oscillator,
             data,
             "isolator.stiffness,isolator.damping,stops.stiffness,gap",
@@ -81,7 +79,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
             starts=1,
             profiles=False,
         )
-        low, high = found.interval.values.T
+        low, high = fit.interval.values.T
         held.append((low <= true) & (true <= high))
     share = np.mean(held)
     assert sample(0.91, 0.7) <= share <= sample(0.98, 1.0)

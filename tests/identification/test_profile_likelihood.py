@@ -47,13 +47,13 @@ def least(problem, a):
 def test_a_refit_that_stays_in_the_wrong_valley_is_mended_from_its_neighbours(gate):
     problem = Valleys(gate)
     around = SimpleNamespace(freedom=10**6, error=np.array([1.0]))
-    found = profile(problem, np.zeros(2), 0, around)
-    for value, rise in zip(found.value, found.rise, strict=True):
+    curve = profile(problem, np.zeros(2), 0, around)
+    for value, rise in zip(curve.value, curve.rise, strict=True):
         if abs(value) > gate:
             assert rise == pytest.approx(least(problem, value), abs=0.05)
-    for end in (found.low, found.high):
+    for end in (curve.low, curve.high):
         assert least(problem, end) == pytest.approx(1.959964**2, rel=0.02)
-    assert (found.open_low, found.open_high) == (False, False)
+    assert (curve.open_low, curve.open_high) == (False, False)
 
 
 class Rounded(Problem):
@@ -70,11 +70,11 @@ class Rounded(Problem):
 
 def test_ends_do_not_depend_on_rounding():
     """Processors differ in it: no value that is tried may move by more than the fit itself."""
-    found = set()
+    ends = set()
     for seed in range(20):
         around = SimpleNamespace(freedom=10**6, error=np.array([0.7 + 1e-12 * seed]))
         one = profile(Rounded(seed), np.zeros(1), 0, around)
-        found.add((one.low, one.high))
-    ((low, high),) = found
+        ends.add((one.low, one.high))
+    ((low, high),) = ends
     assert low == pytest.approx(-1.959964 / np.sqrt(1.3), rel=0.01)
     assert 1.4 < high < 1.4 * 1.01

@@ -11,7 +11,7 @@ PLACES = np.arange(23.0)
 def judged(wave, noise=1.0, count=400, across=True):
     """Chances of tests of two quantities in two directions, 23 frequencies each."""
     draw = np.random.default_rng(0)
-    found = []
+    structures = []
     for _ in range(count):
         rows = [
             Row(
@@ -24,16 +24,16 @@ def judged(wave, noise=1.0, count=400, across=True):
             for way in (1, 2)
         ]
         size = float(np.sqrt(np.mean([r.residual**2 for r in rows])))
-        found.append(structure(rows, size, 1.0, 92.0, 9.2))
-    return found
+        structures.append(structure(rows, size, 1.0, 92.0, 9.2))
+    return structures
 
 
 def test_noise_is_taken_for_noise():
-    found = judged(0.0)
-    chances = np.array([one.chance for one in found])
+    structures = judged(0.0)
+    chances = np.array([one.chance for one in structures])
     assert np.mean(chances < HINT) == pytest.approx(HINT, abs=0.03)
     assert np.mean(chances < CERTAIN) < 0.01
-    assert np.mean([one.excess_chance < CERTAIN for one in found]) < 0.01
+    assert np.mean([one.excess_chance < CERTAIN for one in structures]) < 0.01
 
 
 def test_both_directions_tell_more_than_one():
@@ -46,12 +46,12 @@ def test_both_directions_tell_more_than_one():
 
 def test_residuals_far_above_the_noise_are_told_and_where_they_are():
     rows = [Row("displacement", PLACES, np.where(PLACES > 17.0, 5.0, 0.1), PLACES)]
-    found = structure(rows, 3.0, 0.5, 20.0, 9.0)
-    assert found.excess == 6.0
-    assert found.excess_chance < CERTAIN
-    assert found.worst == (18.0, 22.0)
+    shape = structure(rows, 3.0, 0.5, 20.0, 9.0)
+    assert shape.excess == 6.0
+    assert shape.excess_chance < CERTAIN
+    assert shape.worst == (18.0, 22.0)
 
 
 def test_no_noise_at_all_has_no_shape():
-    found = structure([Row("displacement", PLACES, 0.0 * PLACES, PLACES)], 0.0, None, 20.0, 9.0)
-    assert found.chance == found.excess_chance == 1.0
+    shape = structure([Row("displacement", PLACES, 0.0 * PLACES, PLACES)], 0.0, None, 20.0, 9.0)
+    assert shape.chance == shape.excess_chance == 1.0

@@ -21,8 +21,8 @@ def test_the_noise_is_told_whatever_the_signal() -> None:
 def test_an_integral_has_neither_mean_nor_drift() -> None:
     wanted = np.sin(2.0 * np.pi * TIME) / (2.0 * np.pi)
     wanted -= np.polyval(np.polyfit(TIME, wanted, 2), TIME)
-    found = integrated(TIME, np.cos(2.0 * np.pi * TIME) + 0.3)
-    np.testing.assert_allclose(found, wanted, atol=1e-4)
+    integral = integrated(TIME, np.cos(2.0 * np.pi * TIME) + 0.3)
+    np.testing.assert_allclose(integral, wanted, atol=1e-4)
 
 
 def test_samples_beside_a_jump_count_less():

@@ -28,24 +28,24 @@ def data():
 
 @pytest.mark.parametrize("channel", sample(list(CHANGES), ["displacement"]))
 def test_a_reversed_sensor_is_suggested_as_the_cause(data, channel):
-    change, told = CHANGES[channel]
+    change, cause = CHANGES[channel]
     turned = data.assign({channel: change(data[channel])})
-    found = vi.identify(START, turned, FREE, **QUICK)
-    (line,) = [line for line in found.findings.splitlines() if "reversed" in line]
-    assert told in line
+    fit = vi.identify(START, turned, FREE, **QUICK)
+    (line,) = [line for line in fit.findings.splitlines() if "reversed" in line]
+    assert cause in line
     assert "sign changed in the data" in line
     # It stands first, for the values mean nothing.
-    assert found.findings.splitlines()[0] == line
+    assert fit.findings.splitlines()[0] == line
 
 
 def test_a_gap_that_no_displacement_comes_near_is_absurd_beside_a_reversed_sensor(data):
     """A gap of 5 m is never touched, so that the fit stays there: 494 times the displacement."""
     far = START.replace(right=RIGHT.replace(gap="5 m"))
     turned = data.assign(displacement=-data.displacement)
-    found = vi.identify(far, turned, "stops.right.gap,stops.left.gap", **QUICK)
-    lines = found.findings.splitlines()
+    fit = vi.identify(far, turned, "stops.right.gap,stops.left.gap", **QUICK)
+    lines = fit.findings.splitlines()
     assert "the sign of the displacement reversed" in lines[0]
-    gaps = found.fitted_value.sel(parameter=["stops.right.gap", "stops.left.gap"]).values
+    gaps = fit.fitted_value.sel(parameter=["stops.right.gap", "stops.left.gap"]).values
     swing = np.ptp(turned["displacement"].values) / 2.0
     absurd = np.abs(gaps) > 100.0 * swing
     assert absurd.tolist() == [True, False]
@@ -56,15 +56,15 @@ def test_a_gap_that_no_displacement_comes_near_is_absurd_beside_a_reversed_senso
 
 
 def test_a_right_sensor_is_not_suspected(data):
-    found = vi.identify(START, data, FREE, **QUICK)
-    assert "reversed" not in found.findings
+    fit = vi.identify(START, data, FREE, **QUICK)
+    assert "reversed" not in fit.findings
 
 
 @pytest.mark.full
 def test_an_offset_is_suggested_as_the_cause(data):
     moved = data.assign(displacement=data.displacement + 2e-3)
-    found = vi.identify(RIG, moved, "stops.right.gap,stops.left.gap", **QUICK)
-    (line,) = [line for line in found.findings.splitlines() if "offset" in line]
+    fit = vi.identify(RIG, moved, "stops.right.gap,stops.left.gap", **QUICK)
+    (line,) = [line for line in fit.findings.splitlines() if "offset" in line]
     assert "displacement_offset 2" in line or "displacement_offset 1.99" in line
     assert "its offset free" in line
     free = ["stops.right.gap", "stops.left.gap", "displacement_offset"]
@@ -77,8 +77,8 @@ def test_a_scale_below_zero_is_that_of_a_sensor_turned_round(data):
     turned = data.assign(displacement=-1.02 * data.displacement)
     free = {"stops.right.gap": None, "displacement_scale": {"start": -1}}
     rig = RIG.replace(right=RIGHT.replace(gap="8.5 mm"))
-    found = vi.identify(rig, turned, free, **QUICK)
-    assert found.fitted_value.values == pytest.approx([9e-3, -1.02], rel=0.01)
+    fit = vi.identify(rig, turned, free, **QUICK)
+    assert fit.fitted_value.values == pytest.approx([9e-3, -1.02], rel=0.01)
 
 
 def test_maxima_of_a_sensor_turned_round_are_minima():
@@ -89,10 +89,10 @@ def test_maxima_of_a_sensor_turned_round_are_minima():
         displacement_min=-1.03 * data.displacement_max,
     )
     start = rig.replace(right=RIGHT.replace(gap="8.7 mm"))
-    found = vi.identify(
+    fit = vi.identify(
         start, turned, {"stops.right.gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
     )
-    assert found.fitted_value.values == pytest.approx([9e-3, -1.03], rel=1e-4)
+    assert fit.fitted_value.values == pytest.approx([9e-3, -1.03], rel=1e-4)
 
 
 def test_a_velocity_has_no_offset_of_a_displacement():

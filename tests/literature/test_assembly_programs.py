@@ -23,16 +23,16 @@ def stepped(consistent: bool, step: float) -> NDArray[np.float64]:
     ease = np.linalg.inv(mass + 0.25 * step**2 * stiffness)
     spring, kick = ease @ stiffness, ease[:, 0]
     q, v = (np.full(known.NODES, x) for x in (known.BAR_GAP, -known.BAR_SPEED))
-    found, begin = [], 1e-8
+    contacts, begin = [], 1e-8
     for i in range(1, int((0.0015 - begin) / step)):
         after = v - step * (spring @ (q + 0.5 * step * v))
         impulse = 0.0
         if q[0] <= -1e-14 and after[0] < 0.0:
             impulse = -after[0] / kick[0]
             after = after + kick * impulse
-            found.append((begin + i * step, impulse / step))
+            contacts.append((begin + i * step, impulse / step))
         q, v = q + 0.5 * step * (v + after), after
-    return np.array(found)
+    return np.array(contacts)
 
 
 def test_the_bar_of_siconos() -> None:

@@ -63,12 +63,12 @@ def test_what_cannot_be_computed_here_stays_as_it_was(monkeypatch) -> None:
     one = Comparison("somebody", "something", "1.0", absent)
     monkeypatch.setattr(table, "COMPARISONS", [one])
     before = "| somebody | something | 1.0 | 1.01 | +1.00% | 5.0% |"
-    told = before.removesuffix(" |") + "; not computed in this build: it needs a file |"
+    line = before.removesuffix(" |") + "; not computed in this build: it needs a file |"
     assert list(table.rows({})) == [
         "| somebody | something | – | – | not computed in this build: it needs a file | – |"
     ]
-    assert table.table(before).splitlines()[-1] == told
-    assert table.table(told).splitlines()[-1] == told
+    assert table.table(before).splitlines()[-1] == line
+    assert table.table(line).splitlines()[-1] == line
 
 
 @pytest.mark.parametrize(

@@ -31,11 +31,11 @@ RATIOS = [0.35, 0.5, 0.6, 0.7, 0.8, 0.9]
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_the_resonance_curve(ratio: float) -> None:
     expected = dead_zone_amplitude(ratio)
-    found = dead_zone_orbit(ratio)
-    assert float(found["displacement_max"]) == pytest.approx(expected, rel=1e-10)
-    assert float(found["displacement_min"]) == pytest.approx(-expected, rel=1e-10)
-    assert sorted(found.attrs["contacts"]) == ["L", "R"]
-    np.testing.assert_allclose(found["final_state"].values[:2], [expected, 0.0], atol=1e-9)
+    orbit = dead_zone_orbit(ratio)
+    assert float(orbit["displacement_max"]) == pytest.approx(expected, rel=1e-10)
+    assert float(orbit["displacement_min"]) == pytest.approx(-expected, rel=1e-10)
+    assert sorted(orbit.attrs["contacts"]) == ["L", "R"]
+    np.testing.assert_allclose(orbit["final_state"].values[:2], [expected, 0.0], atol=1e-9)
 
 
 def test_it_is_followed_as_a_branch() -> None:

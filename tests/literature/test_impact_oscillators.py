@@ -49,9 +49,9 @@ BUDD_DUX = [  # ω, r, σ, n
 def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> None:
     one = Oscillator(omega / math.tau, 0.0, r, sigma, n)
     with mp.workdps(30):
-        found = possible_orbits(one)
-        assert found
-        for orbit in found:
+        orbits = possible_orbits(one)
+        assert orbits
+        for orbit in orbits:
             shaking, start = budd_dux_start(orbit)
             shown = vi.orbit(vi.Rig(budd_dux_rig(one), shaking), start, n)
             (impact,) = events(shown)
@@ -119,14 +119,14 @@ def _curve(
     if other == "isolator.damping":
         low, high = 0.0, 0.2
     i = int(np.flatnonzero(data["bifurcation_kind"].values == kind)[0])
-    found = vi.bifurcation_curve(
+    curve = vi.bifurcation_curve(
         vi.Rig(rig, shaken),
         data.isel(bifurcation=i),
         vary={"frequency": (0.1, 1.0), other: (low, high)},
     )
-    assert float(found[other].min()) == pytest.approx(low, abs=1e-12)
-    assert float(found[other].max()) == pytest.approx(high, rel=1e-12)
-    return found
+    assert float(curve[other].min()) == pytest.approx(low, abs=1e-12)
+    assert float(curve[other].max()) == pytest.approx(high, rel=1e-12)
+    return curve
 
 
 def _with(one: Oscillator, other: str, value: float) -> Oscillator:

@@ -148,17 +148,17 @@ def opensees_beside(name: str, halvings: int) -> tuple[NDArray[np.float64], floa
     size = abs(exact).max(axis=0)
     shares = 1.0 + 0.04 * (np.arange(NEARBY) - NEARBY // 2)
     counts = np.rint(np.outer(pair.steps * 2 ** np.arange(halvings + 1), shares)).astype(int)
-    found = np.array(
+    states = np.array(
         [
             opensees.follow(pair.rig, pair.shaken, span, len(exact), steps) / size
             for steps in counts.ravel().tolist()
         ]
     )
-    squares = np.mean((found - exact / size) ** 2, axis=(1, 2))
+    squares = np.mean((states - exact / size) ** 2, axis=(1, 2))
     # The motion at h = 0, and an error in proportion to h^p, that fit all runs, fine ones best.
     weights = counts.ravel() ** pair.order
     columns = np.stack([weights, np.ones_like(weights)], axis=-1)
-    fitted = np.linalg.lstsq(columns, found.reshape(len(weights), -1) * weights[:, None])[0]
+    fitted = np.linalg.lstsq(columns, states.reshape(len(weights), -1) * weights[:, None])[0]
     off = fitted[0].reshape(exact.shape) - exact / size
     return np.sqrt(squares.reshape(counts.shape).mean(axis=1)), float(np.sqrt(np.mean(off**2)))
 

@@ -22,8 +22,8 @@ def motions(code: str, frequency: float):
     return find_motions(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
 
 
-def reached(found, direction: str):
-    (motion,) = (m for m in found if f"{direction} branch" in m.attrs["starts"])
+def reached(several, direction: str):
+    (motion,) = (m for m in several if f"{direction} branch" in m.attrs["starts"])
     return motion
 
 
@@ -46,8 +46,8 @@ class TestSecondaryResonance:
         assert shares[2] > 3.0 * shares[0]
 
     def test_two_motions_coexist_before_the_jump(self):
-        found = motions("B2-G1-A3", 2.60)
-        forward, backward = (reached(found, way) for way in ("forward", "backward"))
+        pair = motions("B2-G1-A3", 2.60)
+        forward, backward = (reached(pair, way) for way in ("forward", "backward"))
         assert float(forward["impacts"].sel(stop="right")) == 1.0
         assert (
             float(backward["impacts"].sel(stop="right"))
@@ -63,9 +63,9 @@ class TestNonRegular:
     """B3-10mm-A3: Fig. 16 and the text about it."""
 
     def test_impacts_a_side_near_0_70_hz(self):
-        found = motions("B3-10mm-A3", 0.70)
+        pair = motions("B3-10mm-A3", 0.70)
         for way, count in (("forward", 2.0), ("backward", 1.0)):
-            motion = reached(found, way)
+            motion = reached(pair, way)
             assert motion["motion"].item() == "periodic"
             assert bool(motion["antisymmetric"])
             assert (

@@ -32,38 +32,38 @@ def named(step: int, **thresholds: float) -> dict[str, str]:
     cases = vi.laboratory.campaign()
     data = vi.sweeps(cases, np.arange(50, 501, step) / 100)
     used = Thresholds(**thresholds)
-    found = each_evidence(
+    evidence = each_evidence(
         [one_sine(case.rig) for case in cases],
         data,
         0.5 * used.prominence,
     )
-    return {case.code: scenario(one, used).label for case, one in zip(cases, found, strict=True)}
+    return {case.code: scenario(one, used).label for case, one in zip(cases, evidence, strict=True)}
 
 
 @pytest.mark.parametrize("step", [1, 2])
 def test_every_test_that_the_text_determines(step):
-    found = named(step)
-    assert {found[f"{b}-G4-A1"] for b in BUMPERS} == {"S1"}
-    assert {found[f"{b}-{g}-A1"] for b in BUMPERS for g in GAPS[:3]} == {"S2"}
+    labels = named(step)
+    assert {labels[f"{b}-G4-A1"] for b in BUMPERS} == {"S1"}
+    assert {labels[f"{b}-{g}-A1"] for b in BUMPERS for g in GAPS[:3]} == {"S2"}
     for a in ("A2", "A3"):
-        assert {found[f"{b}-{g}-{a}"] for b in BUMPERS for g in GAPS} == {"S2", "S3"}
-        assert {found[f"{b}-{g}-{a}"] for b in BUMPERS for g in GAPS[2:]} == {"S2"}
-    assert found["B2-G1-A3"] == "S3"
-    assert found["B2-G2-A2"] == "S2"
+        assert {labels[f"{b}-{g}-{a}"] for b in BUMPERS for g in GAPS} == {"S2", "S3"}
+        assert {labels[f"{b}-{g}-{a}"] for b in BUMPERS for g in GAPS[2:]} == {"S2"}
+    assert labels["B2-G1-A3"] == "S3"
+    assert labels["B2-G2-A2"] == "S2"
 
 
 def test_from_s3_to_s2():
     """As the gap grows and as the bumper softens; and there are more S3 with A3 than with A2."""
-    found = named(1)
+    labels = named(1)
     for a in ("A2", "A3"):
         for b in BUMPERS:
-            row = [found[f"{b}-{g}-{a}"] for g in GAPS]
+            row = [labels[f"{b}-{g}-{a}"] for g in GAPS]
             assert row == sorted(row, reverse=True)
         for g in GAPS:
-            column = [found[f"{b}-{g}-{a}"] for b in BUMPERS]
+            column = [labels[f"{b}-{g}-{a}"] for b in BUMPERS]
             assert column == sorted(column)
     counts = {
-        a: sum(found[f"{b}-{g}-{a}"] == "S3" for b in BUMPERS for g in GAPS) for a in ("A2", "A3")
+        a: sum(labels[f"{b}-{g}-{a}"] == "S3" for b in BUMPERS for g in GAPS) for a in ("A2", "A3")
     }
     assert 0 < counts["A2"] < counts["A3"]
 
@@ -90,23 +90,23 @@ def test_on_the_default_frequencies_too():
 )
 def test_numerical_scenarios(code, expected):
     case = vi.laboratory.case(code)
-    found = classify(vi.Rig(case.oscillator, case.amplitude))
-    assert found.scenario == expected
-    assert 0.0 <= found.confidence <= 1.0
+    verdict = classify(vi.Rig(case.oscillator, case.amplitude))
+    assert verdict.scenario == expected
+    assert 0.0 <= verdict.confidence <= 1.0
 
 
 def test_the_evidence_for_s4():
     """Fig. 15: left hystereses below 0.9 Hz, and near 1 Hz a resonance that is not regular."""
     case = vi.laboratory.case("B3-10mm-A3")
-    found = classify(vi.Rig(case.oscillator, case.amplitude))
-    assert found.confidence == 1.0
-    assert found.alternatives == {}
+    verdict = classify(vi.Rig(case.oscillator, case.amplitude))
+    assert verdict.confidence == 1.0
+    assert verdict.alternatives == {}
     for words in ("left hysteresis 0.674–0.729 Hz", "left hysteresis 0.448–0.469 Hz", "chaotic"):
-        assert words in found.evidence
+        assert words in verdict.evidence
     # Folds of the branch, found otherwise to 1e-5 (docs/how-to/follow-a-branch.md).
     for fold in (0.67402, 0.72864):
-        assert min(abs(fold - other) for other in found.features.folds) < 2e-5
-    assert found.evidence.startswith("right hysteresis 1.9–3.3 Hz")
+        assert min(abs(fold - other) for other in verdict.features.folds) < 2e-5
+    assert verdict.evidence.startswith("right hysteresis 1.9–3.3 Hz")
 
 
 @pytest.mark.parametrize(
@@ -128,10 +128,10 @@ def test_a_hysteresis_between_two_frequencies_is_seen_by_the_branch():
     """Steep as the curve is, 60 kN/m does not jump; 75 kN/m does, over less than a step."""
     for stiffness, expected in (("60kN/m", "S6"), ("75kN/m", "S2")):
         case = vi.laboratory.case(f"{stiffness}-G3-A1")
-        found = classify(vi.Rig(case.oscillator, case.amplitude))
-        assert found.scenario == expected
-        assert bool(found.features.folds) == (expected == "S2")
-        assert "no jumps" in found.evidence or expected == "S2"
+        verdict = classify(vi.Rig(case.oscillator, case.amplitude))
+        assert verdict.scenario == expected
+        assert bool(verdict.features.folds) == (expected == "S2")
+        assert "no jumps" in verdict.evidence or expected == "S2"
 
 
 def test_the_same_dimensionless_parameters_give_the_same_scenario():

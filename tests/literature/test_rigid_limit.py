@@ -107,7 +107,7 @@ def rigid_orbit(ratio: float, n: int, share: float, e: float, two_stops: bool) -
     kappa = sign * (c + (d - sign) * sigma) / (1.0 + e)
     both = sigma + e * kappa
     middle, spread = math.atan2(ratio, both), math.acos(both * share / math.hypot(ratio, both))
-    found = []
+    orbits = []
     for psi in (middle + spread, middle - spread):
         q = gap - swing * math.cos(psi)
         t = np.linspace(0.0, span, 2000)[1:-1]
@@ -115,8 +115,8 @@ def rigid_orbit(ratio: float, n: int, share: float, e: float, two_stops: bool) -
         u = np.exp(-xi * t) * waving + swing * np.cos(psi + ratio * t)
         if kappa * q > 0.0 and u.max() < gap and (not two_stops or u.min() > -gap):
             phase = psi + math.pi / 2 - cmath.phase(turning)
-            found.append(Orbit(gap, phase % math.tau, kappa * q))
-    (orbit,) = found
+            orbits.append(Orbit(gap, phase % math.tau, kappa * q))
+    (orbit,) = orbits
     return orbit
 
 

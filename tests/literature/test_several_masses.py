@@ -43,16 +43,16 @@ def test_where_a_ball_in_a_shaken_cavity_gains_and_loses_stability() -> None:
 def test_two_masses_with_mutual_stops_of_pwsdde_cont() -> None:
     """PWSDDE-cont's impact Duffing system without its cubic terms, at ω = 1.5."""
     mu, r = 0.05, 0.9
-    found = known.absorber()
-    assert int(found["stable"]) == 1
-    assert found.sizes["event"] == 2
-    (at,) = np.flatnonzero(found["event_stop"].values == "up")
-    start = found["event_displacement"].isel(event=at)
+    orbit = known.absorber()
+    assert int(orbit["stable"]) == 1
+    assert orbit.sizes["event"] == 2
+    (at,) = np.flatnonzero(orbit["event_stop"].values == "up")
+    start = orbit["event_displacement"].isel(event=at)
     one, two = (float(start.sel(mass=name)) for name in ("one", "two"))
     assert one == pytest.approx(0.63811168, abs=1e-8)
     assert two - one == pytest.approx(1.0, abs=1e-12)
     # The velocities before the impact, with its own law after it.
-    before = found["event_velocity"].isel(event=at).sel(mass=["one", "two"]).values
+    before = orbit["event_velocity"].isel(event=at).sel(mass=["one", "two"]).values
     common = (before[0] + mu * before[1]) / (1.0 + mu)
     after = (1.0 + r) * common - r * before
     assert after == pytest.approx([-0.20442210, -1.45956553], abs=1e-8)
@@ -89,18 +89,18 @@ def test_an_unstable_orbit_of_an_impact_damper() -> None:
     )
     rig = vi.Rig(damper, force)
     flown = vi.simulate(rig, later, start, samples=0)
-    found = vi.orbit(rig, flown)
-    assert int(found["stable"]) == 0
-    right = found["event_stop"].values == "right"
-    assert found.sizes["event"] == 2
-    ball = found["event_velocity"].sel(mass="ball").values[right]
+    orbit = vi.orbit(rig, flown)
+    assert int(orbit["stable"]) == 0
+    right = orbit["event_stop"].values == "right"
+    assert orbit.sizes["event"] == 2
+    ball = orbit["event_velocity"].sel(mass="ball").values[right]
     assert ball == pytest.approx([speed], abs=1e-8)
 
 
 def test_bifurcations_of_nlvibs_unilateral_spring() -> None:
     """NLvib's example 03: stable near Ω = 0.635, Neimark–Sacker near 0.62, doubling near 0.74."""
-    rig, found = known.rig_at_one_sided_spring(), known.one_sided_spring()
-    places = [(kind, TURN * value) for kind, value in bifurcations(found)]
+    rig, branch = known.rig_at_one_sided_spring(), known.one_sided_spring()
+    places = [(kind, TURN * value) for kind, value in bifurcations(branch)]
     (torus,) = (value for kind, value in places if kind == "Neimark-Sacker")
     doubling = min(value for kind, value in places if kind == "period doubling")
     assert torus == pytest.approx(0.62, abs=0.005)

@@ -22,8 +22,8 @@ TURN = 2.0 * math.pi
 def test_grazing_to_rounding(phase):
     exact = elastic_grazing()
     assert exact == pytest.approx(1.08086874, abs=1e-8)
-    found = elastic_limits("grazing", elastic_stops(phase))
-    assert min(abs(value - exact) for value in found) < 1e-12
+    frequencies = elastic_limits("grazing", elastic_stops(phase))
+    assert min(abs(value - exact) for value in frequencies) < 1e-12
 
 
 def test_free_flight_multipliers_on_the_branch():
@@ -34,9 +34,9 @@ def test_free_flight_multipliers_on_the_branch():
     for i in np.flatnonzero(free):
         period = 1.0 / float(data["frequency"][i])
         expected = np.exp(complex(-0.05, math.sqrt(1 - 0.05**2)) * period)
-        found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
-        assert min(abs(found - expected)) < 1e-13
-        assert abs(found[:2]).max() == pytest.approx(abs(expected), rel=1e-13)
+        multipliers = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
+        assert min(abs(multipliers - expected)) < 1e-13
+        assert abs(multipliers[:2]).max() == pytest.approx(abs(expected), rel=1e-13)
 
 
 def test_between_the_limits_there_are_three_orbits():

@@ -49,7 +49,7 @@ def test_scales_and_absent_values_of_hdf5(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("about", "told"),
+    ("about", "message"),
     [
         ({"units": 3}, "states units = 3, which is not a unit"),
         ({"units": "furlong-ish"}, "a unit that"),
@@ -68,9 +68,9 @@ def test_scales_and_absent_values_of_hdf5(tmp_path):
         ({"units": "mm", "sensitivity": "100 mV/g"}, "'100 mV/g', which may have been applied"),
     ],
 )
-def test_what_looks_like_a_unit_or_scale_and_is_none_is_refused(tmp_path, about, told):
+def test_what_looks_like_a_unit_or_scale_and_is_none_is_refused(tmp_path, about, message):
     path = hdf5(tmp_path / "a.h5", **about)
-    with pytest.raises(vi.InputError, match=told) as refused:
+    with pytest.raises(vi.InputError, match=message) as refused:
         vi.read_measurement(path)
     assert "\n" not in str(refused.value)
     data = vi.read_measurement(path, units={"displacement": "cm"})
@@ -92,8 +92,8 @@ def beside(path: Path, where: str, name: str, value) -> Path:
         about = {"values": counts, "units": "mm", name: value}
         record = {"time": TIME, "displacement": counts, "units": "mm", name: value}
         signal = {"time": TIME, "displacement": {"name": "displacement", **about}}
-        found = {"mat": record, "mat struct": {"run": record}, "mat signal": signal}[where]
-        scipy.io.savemat(path := path / "a.mat", found)
+        variables = {"mat": record, "mat struct": {"run": record}, "mat signal": signal}[where]
+        scipy.io.savemat(path := path / "a.mat", variables)
     elif where.startswith("h5"):
         with h5py.File(path := path / "a.h5", "w") as file:
             group = file.create_group("run") if where == "h5 group" else file
@@ -150,13 +150,13 @@ def test_a_scale_beside_several_channels_is_refused(tmp_path):
 @pytest.mark.parametrize("ending", ["mat", "h5"])
 def test_lists_of_units_that_belong_to_no_channel_are_refused(tmp_path, name, ending):
     path = tmp_path / f"a.{ending}"
-    for given in (["s", "mm"], ["s", "mm", "mm"]):
-        found = {"time": TIME, "u": U, name: np.array(given, dtype=object)}
+    for unit_list in (["s", "mm"], ["s", "mm", "mm"]):
+        variables = {"time": TIME, "u": U, name: np.array(unit_list, dtype=object)}
         if ending == "mat":
-            scipy.io.savemat(path, found)
+            scipy.io.savemat(path, variables)
         else:
             with h5py.File(path, "w") as file:
-                for key, value in found.items():
+                for key, value in variables.items():
                     file[key] = value
         with pytest.raises(vi.InputError, match=f"the file states {name} = 's, mm"):
             vi.read_measurement(path)
@@ -188,9 +188,9 @@ def test_units_beside_the_columns_of_a_text(tmp_path):
 
 
 def test_units_of_steps_beside_the_channels(tmp_path):
-    found = {"u_mm": U, "dt": 4.0, "dt_unit": "ms"}
-    for given in (found, {"u_mm": U, "dt": 4.0, "time_unit": "ms"}):
-        scipy.io.savemat(tmp_path / "a.mat", given)
+    variables = {"u_mm": U, "dt": 4.0, "dt_unit": "ms"}
+    for content in (variables, {"u_mm": U, "dt": 4.0, "time_unit": "ms"}):
+        scipy.io.savemat(tmp_path / "a.mat", content)
         data = vi.read_measurement(tmp_path / "a.mat")
         np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
     scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 200.0})
@@ -241,11 +241,11 @@ def test_an_hdf5_file_that_announces_more_than_it_holds(tmp_path):
 def test_matlab_groups_keep_their_own(tmp_path):
     runs = [{"time": TIME, "u_mm": U}, {"time": TIME, "u_mm": 2.0 * U}]
     nested = {"A": {"data_": runs[0]}, "B": {"data_": runs[1]}}
-    for found, names in (
+    for variables, names in (
         ({"runs": runs}, ["runs(1)", "runs(2)"]),
         (nested, ["A.data_", "B.data_"]),
     ):
-        scipy.io.savemat(tmp_path / "a.mat", found)
+        scipy.io.savemat(tmp_path / "a.mat", variables)
         for name, factor in zip(names, (1e-3, 2e-3), strict=True):
             data = vi.read_measurement(tmp_path / "a.mat", group=name)
             np.testing.assert_allclose(data["displacement"], factor * U, rtol=1e-12)
@@ -259,8 +259,8 @@ def test_structs_of_name_data_and_units(tmp_path):
     scipy.io.savemat(tmp_path / "a.mat", {"signals": signals})
     data = vi.read_measurement(tmp_path / "a.mat")
     np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
-    found = {"t": 1e3 * TIME, "t_unit": "ms", "u": U, "u_units": "cm"}
-    scipy.io.savemat(tmp_path / "b.mat", found)
+    variables = {"t": 1e3 * TIME, "t_unit": "ms", "u": U, "u_units": "cm"}
+    scipy.io.savemat(tmp_path / "b.mat", variables)
     data = vi.read_measurement(tmp_path / "b.mat")
     np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
     np.testing.assert_allclose(data["displacement"], 1e-2 * U, rtol=1e-12)
@@ -268,10 +268,10 @@ def test_structs_of_name_data_and_units(tmp_path):
 
 def test_sparse_columns_are_read_and_complex_ones_named(tmp_path):
     sparse = scipy.sparse.csc_array(U[:, np.newaxis])
-    found = {"time": TIME, "u_mm": sparse, "acceleration": np.exp(1j * TIME)}
-    scipy.io.savemat(tmp_path / "a.mat", found)
+    variables = {"time": TIME, "u_mm": sparse, "acceleration": np.exp(1j * TIME)}
+    scipy.io.savemat(tmp_path / "a.mat", variables)
     with h5py.File(tmp_path / "a.h5", "w") as file:
-        for name, values in {**found, "u_mm": U}.items():
+        for name, values in {**variables, "u_mm": U}.items():
             file[name] = values
     for name in ("a.mat", "a.h5"):
         data = vi.read_measurement(tmp_path / name)
@@ -351,9 +351,9 @@ def test_names_of_files_steer_no_terminal(tmp_path):
     spare = ("spare\x1b[2J\n|<b>", U, {"wf_increment": 0.004})
     path = tdms(tmp_path / "a.tdms", (name, U, {"wf_increment": 0.004}), spare, group="r\n\x07")
     data = vi.read_measurement(path)
-    told = data.attrs["notes"] + data.attrs["left_out"]
-    assert "spare" in told
-    assert not any(letter < " " and letter != "\n" for letter in told)
+    text = data.attrs["notes"] + data.attrs["left_out"]
+    assert "spare" in text
+    assert not any(letter < " " and letter != "\n" for letter in text)
     lines = (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines()
     begins = ("the time", "columns were not understood", "spare")
     assert all(line.startswith(begins) for line in lines)
@@ -487,11 +487,11 @@ def test_scales_that_nptdms_cannot_apply_are_refused(tmp_path, capfd):
              "NI_Scale[0]_Scale_Type": "Cubic"}  # fmt: skip
     own = {"NI_Scale[0]_Scale_Type": "Linear", "NI_Scale[0]_Linear_Slope": 2.0,
            "NI_Scale[0]_Linear_Y_Intercept": 0.0, "NI_Scale[0]_Linear_Input_Source": 0}  # fmt: skip
-    for other, told in (
+    for other, message in (
         ({}, "Unsupported scale type"),
         ({"NI_Number_Of_Scales": 2**30}, "NI_Number_Of_Scales = 1073741824"),
         (own, "is damaged or not a TDMS file"),
     ):
-        with pytest.raises(vi.InputError, match=told):
+        with pytest.raises(vi.InputError, match=message):
             vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about | other)))
     assert capfd.readouterr().err == ""

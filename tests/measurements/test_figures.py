@@ -110,8 +110,8 @@ def test_the_spectrum_of_a_history(history):
         vi.steady(vi.laboratory.case("B2-G1-A3", "identified"), frequency="2 Hz", start=motion), 5
     )
     for order in (1, 3):
-        found = float(lines.displacement_amplitude.sel(order=order, method="nearest"))
-        assert found == pytest.approx(
+        amplitude = float(lines.displacement_amplitude.sel(order=order, method="nearest"))
+        assert amplitude == pytest.approx(
             float(exact.displacement_amplitude.sel(order=order)), rel=0.01
         )
     assert "velocity_amplitude" not in lines
@@ -285,11 +285,11 @@ def test_the_larger_side_is_drawn():
 @pytest.mark.parametrize(("end", "side"), [("max", "maximum"), ("min", "minimum")])
 def test_one_side_alone_is_told(end, side):
     data = of_one_sided_rig()[[f"displacement_{end}", f"acceleration_{end}"]]
-    told = "\n".join(in_words(as_measured(data)))
-    assert f"peak of the acceleration's {side} at" in told
-    assert "E_a" not in told
+    text = "\n".join(in_words(as_measured(data)))
+    assert f"peak of the acceleration's {side} at" in text
+    assert "E_a" not in text
     words = {"max": "maxima", "min": "minima"}[end]
-    assert f"displacement: only {words} were measured" in told
+    assert f"displacement: only {words} were measured" in text
     upper, lower = figures.resonance_curves(as_measured(data))
     assert upper.get_ylabel() == f"{side} of absolute\nacceleration (g)"
     assert (lower.lines[0].get_ydata()[0] > 0.0) == (end == "max")

@@ -19,17 +19,17 @@ TIME = np.arange(60) / RATE
 U, ACCELERATION, BASE = 0.01 * np.sin(TIME), 3.0 * np.cos(TIME), 0.4 * np.sin(7.0 * TIME)
 
 
-def words(*given: str) -> np.ndarray:
+def words(*texts: str) -> np.ndarray:
     """A cell array."""
-    return np.array(given, dtype=object)
+    return np.array(texts, dtype=object)
 
 
 def matrix(path):
     """A matrix, with the names and the units of its columns in cells beside it."""
     columns = [TIME, 1e3 * U, ACCELERATION / 9.80665, BASE / 9.80665]
     names = words("Time", "Relative displacement", "Mass acceleration", "Table acceleration")
-    given = {"data": np.column_stack(columns), "channels": names, "units": words("s", "mm", *"gg")}
-    scipy.io.savemat(path, given)
+    struct = {"data": np.column_stack(columns), "channels": names, "units": words("s", "mm", *"gg")}
+    scipy.io.savemat(path, struct)
 
 
 def scope(path):

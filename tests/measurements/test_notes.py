@@ -50,8 +50,8 @@ def test_marks_of_dropouts_are_doubted(tmp_path, mark):
     cells = [mark if i in (3, 7) else f"{0.5 * i}" for i in range(20)]
     rows = [f"{1 + 0.1 * i:g},forward,{cell}" for i, cell in enumerate(cells)]
     file.write_text("\n".join(["f (Hz),direction,Ed (mm)", *rows]))
-    told = r"column Ed.* has the value .* in 2 of 20 rows, far from all others \(at most 9\.5\)"
-    with pytest.warns(vi.InputWarning, match=told):
+    message = r"column Ed.* has the value .* in 2 of 20 rows, far from all others \(at most 9\.5\)"
+    with pytest.warns(vi.InputWarning, match=message):
         assert "leave these cells empty" in vi.read_measurement(file).attrs["notes"]
 
 

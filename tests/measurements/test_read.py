@@ -55,8 +55,8 @@ def written(folder, text, name="test.csv"):
     ],
 )
 def test_what_a_name_says(name, variable, direction, unit):
-    found = meaning(name)
-    assert (found.variable, found.direction, found.unit) == (variable, direction, unit)
+    column = meaning(name)
+    assert (column.variable, column.direction, column.unit) == (variable, direction, unit)
 
 
 @pytest.mark.parametrize(
@@ -151,7 +151,7 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
 
 
 @pytest.mark.parametrize(
-    ("said", "amplitude", "told"),
+    ("said", "amplitude", "note"),
     [
         ("Amplitude;0,04 g", 0.392266, ""),
         ("# amplitude_g = 0.04", 0.392266, ""),
@@ -164,13 +164,13 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
         ("# Date: 2024-05-01\n# at 12:30\n# table peak 0.04 g\n# by: us", None, ""),
     ],
 )
-def test_numbers_beside_the_columns_are_read_or_told(tmp_path, said, amplitude, told):
+def test_numbers_beside_the_columns_are_read_or_told(tmp_path, said, amplitude, note):
     path = written(tmp_path, f"{said}\nf (Hz);direction;Ed (mm)\n1;up;2\n2;down;3\n")
     data = vi.read_measurement(path)
     assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
     assert data.attrs.get("amplitude_source") == (amplitude and "test.csv")
-    assert data.attrs["notes"].endswith(told)
-    assert bool(data.attrs["notes"]) == bool(told)
+    assert data.attrs["notes"].endswith(note)
+    assert bool(data.attrs["notes"]) == bool(note)
     data = vi.read_measurement(path, amplitude="0.05 g")
     assert data.attrs["amplitude"] == pytest.approx(0.4903325)
     assert data.attrs["amplitude_source"] == "the call"
@@ -188,19 +188,19 @@ def test_an_amplitude_without_a_unit_is_refused(tmp_path):
 
 @pytest.mark.parametrize("group", ["", "test"])
 @pytest.mark.parametrize(
-    ("beside", "amplitude", "told"),
+    ("beside", "amplitude", "note"),
     [
         ({"amplitude_g": 0.04}, 0.392266, ""),
         ({"amplitude": "0.04 g"}, 0.392266, ""),
         ({"A_g": 0.04, "name": "B2"}, None, "left out: A_g = 0.04"),
     ],
 )
-def test_numbers_beside_the_vectors_of_matlab(tmp_path, group, beside, amplitude, told):
+def test_numbers_beside_the_vectors_of_matlab(tmp_path, group, beside, amplitude, note):
     record = {"f_Hz": [1.0, 2.0, 3.0], "Ed_mm": [1.0, 2.0, 3.0], **beside}
     scipy.io.savemat(tmp_path / "test.mat", {group: record} if group else record)
     data = vi.read_measurement(tmp_path / "test.mat")
     assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
-    assert told in data.attrs["notes"]
+    assert note in data.attrs["notes"]
     assert ("entries outside the columns" in data.attrs["notes"]) == (amplitude is None)
 
 
@@ -233,7 +233,7 @@ def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("rows", "directions", "told"),
+    ("rows", "directions", "note"),
     [
         ("1,10\n2,20\n3,5\n", ["forward"], "forward was assumed"),
         ("3,5\n2,20\n1,10\n", ["backward"], "backward was assumed"),
@@ -241,14 +241,14 @@ def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
         ("1,10\n", ["forward"], "only one frequency"),
     ],
 )
-def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
+def test_a_direction_that_no_column_tells(tmp_path, rows, directions, note):
     data = vi.read_measurement(written(tmp_path, "f (Hz),Ed (mm)\n" + rows))
     assert data.direction.values.tolist() == directions
-    assert told in data.attrs["notes"]
+    assert note in data.attrs["notes"]
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("f,Ed (mm)\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
         ("f,Ed\n1,2\n3,4\n", "states no unit of 'Ed'; pass it, such as units={'Ed': 'mm'} (--u"),
@@ -284,10 +284,10 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
         ("time,u (mm)\n1,2\n1,3\n", "occurs twice"),
     ],
 )
-def test_what_cannot_be_read_is_refused_with_its_place(tmp_path, text, told):
+def test_what_cannot_be_read_is_refused_with_its_place(tmp_path, text, message):
     with pytest.raises(vi.InputError) as error:
         vi.read_measurement(written(tmp_path, text))
-    assert told in str(error.value)
+    assert message in str(error.value)
     assert "\n" not in str(error.value)
 
 

@@ -159,7 +159,7 @@ def test_a_unit_of_the_file_that_cannot_be_used_is_replaced_by_that_of_the_user(
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("Samples: 300", "line 1: the file announces 300 values, but 200 follow"),
         ("fs = 100", "states 'fs = 100', a step of 0.01 s, but the times have steps of 0.005 s"),
@@ -168,10 +168,10 @@ def test_a_unit_of_the_file_that_cannot_be_used_is_replaced_by_that_of_the_user(
         ("AmplitudeUnit: gal", "the file states the units 'g' and 'gal'"),
     ],
 )  # fmt: skip
-def test_a_statement_that_the_values_contradict_is_refused_with_both(tmp_path, line, told):
+def test_a_statement_that_the_values_contradict_is_refused_with_both(tmp_path, line, message):
     with pytest.raises(vi.InputError) as error:
         read(tmp_path, table(f"# {line}\nTime (s),acc (g)\n", TIME, A))
-    assert told in str(error.value)
+    assert message in str(error.value)
     assert "\n" not in str(error.value)
 
 

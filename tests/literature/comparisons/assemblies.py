@@ -52,9 +52,9 @@ def damper_speed() -> float:
         stops={"right": vi.Link("ball", "host", wall), "left": vi.Link("host", "ball", wall)},
         units="none",
     )
-    found = vi.orbit(vi.Rig(system, vi.Harmonic(1.0, 1.0 / math.tau, of="force", on="host")))
-    right = found["event_stop"].values == "right"
-    return float(found["event_velocity"].sel(mass="ball").values[right][0])
+    orbit = vi.orbit(vi.Rig(system, vi.Harmonic(1.0, 1.0 / math.tau, of="force", on="host")))
+    right = orbit["event_stop"].values == "right"
+    return float(orbit["event_velocity"].sel(mass="ball").values[right][0])
 
 
 # --- PWSDDE-cont, `impduff_def.m` without its cubic terms
@@ -80,9 +80,9 @@ def absorber() -> xr.Dataset:
 
 def absorber_place() -> float:
     """x₁ at the impact at +1."""
-    found = absorber()
-    up = found["event_stop"].values == "up"
-    return float(found["event_displacement"].sel(mass="one").values[up][0])
+    orbit = absorber()
+    up = orbit["event_stop"].values == "up"
+    return float(orbit["event_displacement"].sel(mass="one").values[up][0])
 
 
 # --- NLvib's example 03
@@ -181,9 +181,9 @@ def bar(consistent: bool = True, pushed: float = 1e-7) -> tuple[float, float, fl
         forces={"dof_1": -pushed} if pushed else None,
     )
     start = vi.State(velocity=dict.fromkeys(system.names, -BAR_SPEED))
-    found = vi.simulate(vi.Rig(system, vi.Harmonic(0.0, 1.0 / 0.0015)), 1, start)
-    times = found["event_time"].values
-    speeds = found["velocity"].isel(time=-1).values
+    motion = vi.simulate(vi.Rig(system, vi.Harmonic(0.0, 1.0 / 0.0015)), 1, start)
+    times = motion["event_time"].values
+    speeds = motion["velocity"].isel(time=-1).values
     return float(times[0]), float(times[-1]), float((mass @ (speeds + BAR_SPEED)).sum())
 
 
@@ -245,10 +245,10 @@ def exact_sink(frequency: float, ratio: float = SINK_RATIO) -> float:
             "ball": -math.copysign(2.0 * frequency * swing * gap / math.pi, math.sin(ball)),
         },
     )
-    found = vi.orbit(rig, start)
-    assert int(found["stable"]) == 1
-    assert found.sizes["event"] == 2
-    motion = vi.simulate(rig, 1, found["initial_state"], samples=1024)
+    orbit = vi.orbit(rig, start)
+    assert int(orbit["stable"]) == 1
+    assert orbit.sizes["event"] == 2
+    motion = vi.simulate(rig, 1, orbit["initial_state"], samples=1024)
     host = motion["displacement"].sel(mass="host").values[:1024]
     return float(2.0 * abs(np.fft.rfft(host)[1]) / len(host) / gap)
 

@@ -99,8 +99,8 @@ def budd_dux_velocity(orbit: Orbit) -> float:
     """Ours, of the impact on an orbit."""
     shaken, start = budd_dux_start(orbit)
     rig = vi.Rig(budd_dux_rig(orbit.oscillator), shaken)
-    found = vi.orbit(rig, start, orbit.oscillator.cycles)
-    (impact,) = events(found)
+    data = vi.orbit(rig, start, orbit.oscillator.cycles)
+    (impact,) = events(data)
     return impact.v
 
 

@@ -80,10 +80,10 @@ def elastic_stops(phase: float = 0.0) -> xr.Dataset:
 
 
 def elastic_limits(kind: str, data: xr.Dataset | None = None) -> list[float]:
-    """Ω of what was found on it."""
+    """Ω of its bifurcations of one kind."""
     data = elastic_stops() if data is None else data
-    found = data["bifurcation_value"].values[data["bifurcation_kind"].values == kind]
-    return sorted(math.tau * found)
+    values = data["bifurcation_value"].values[data["bifurcation_kind"].values == kind]
+    return sorted(math.tau * values)
 
 
 def elastic_grazing() -> float:
@@ -93,10 +93,10 @@ def elastic_grazing() -> float:
 
 def auto_fold(which: int) -> float:
     """Ω of AUTO-07p's lower and upper limit point, its contact smoothed over 1e-5."""
-    found = auto07.continued(1e-5, 400, 0.005, 1)
-    if found is None:
+    branch = auto07.continued(1e-5, 400, 0.005, 1)
+    if branch is None:
         raise AbsentError("AUTO-07p")
-    return sorted(found.folds)[which]
+    return sorted(branch.folds)[which]
 
 
 AUTO = "AUTO-07p 0.9.2"
@@ -149,8 +149,8 @@ def siconos_times() -> np.ndarray:
 
 def _siconos_ours() -> float:
     shaken = vi.Harmonic(0.0, 100.0)
-    found = vi.simulate(vi.Rig(SICONOS_RIG, shaken), 12, vi.State(1.0), samples=1)
-    return float(found["event_time"][BOUNCES - 1])
+    motion = vi.simulate(vi.Rig(SICONOS_RIG, shaken), 12, vi.State(1.0), samples=1)
+    return float(motion["event_time"][BOUNCES - 1])
 
 
 # --- the paper
@@ -160,9 +160,9 @@ PAPER = "the paper"
 
 def _printed(names: str) -> tuple[int, int]:
     """How many numbers of Table 1 come out to the digit, and how many there are."""
-    found = table1.computed()
+    ours = table1.computed()
     pairs = [
-        (table1.written(name, found[a][name]), table1.written(name, value))
+        (table1.written(name, ours[a][name]), table1.written(name, value))
         for a, row in table1.PRINTED.items()
         for name, value in row.items()
         if name.startswith(names)

@@ -33,8 +33,8 @@ def el_centro() -> vi.Record:
 
 def _chopra(period: float, damping: float, printed: str) -> Comparison:
     def ours() -> float:
-        found = vi.response_spectrum(el_centro(), [period], [damping])
-        return float(found["spectral_displacement"].squeeze()) / INCH
+        spectrum = vi.response_spectrum(el_centro(), [period], [damping])
+        return float(spectrum["spectral_displacement"].squeeze()) / INCH
 
     # Digitisations of this accelerogram differ.
     within = 0.007 * float(printed)
@@ -64,8 +64,8 @@ def _eqsig(near: float) -> Comparison:
         return table[np.abs(table[:, 0] - near).argmin()]
 
     def ours() -> float:
-        found = vi.response_spectrum(eqsig_record(), [row()[0]], 0.05)
-        return float(found["pseudo_acceleration"].squeeze()) / 9.81
+        spectrum = vi.response_spectrum(eqsig_record(), [row()[0]], 0.05)
+        return float(spectrum["pseudo_acceleration"].squeeze()) / 9.81
 
     words = f"its record: spectral acceleration (g), ξ = 0.05, near T = {near:g} s"
     return Comparison(EQSIG, words, lambda: float(row()[1]), ours, 0.002)
@@ -121,8 +121,8 @@ def _pounding(name: str) -> Comparison:
     rig = POUNDING[name]
 
     def ours() -> float:
-        found = vi.seismic_response(vi.Rig(rig, pounding_record()), tail=0.0)
-        return 1e3 * float(found["peak_displacement"])
+        response = vi.seismic_response(vi.Rig(rig, pounding_record()), tail=0.0)
+        return 1e3 * float(response["peak_displacement"])
 
     again: Number = lambda: 1e3 * opensees_peak(rig, pounding_record(), 64)  # noqa: E731
     printed = POUNDING_PEAKS[name]

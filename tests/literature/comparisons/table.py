@@ -95,9 +95,9 @@ def rows(before: dict[tuple[str, str], str]) -> Iterator[str]:
 def table(text: str = "") -> str:
     """The table; `text` is the page, for what cannot be computed here."""
     before = {
-        (found[0], found[1]): line
+        (entry[0], entry[1]): line
         for line in text.splitlines()
-        if line.startswith("| ") and len(found := cells(line)) == 6
+        if line.startswith("| ") and len(entry := cells(line)) == 6
     }
     return "\n".join([HEAD, "| --- | --- | ---: | ---: | --- | ---: |", *rows(before)]) + "\n"
 
