@@ -40,10 +40,10 @@ def modes(rig: AnyAssembly) -> xr.Dataset:
 
     Examples
     --------
-    >>> found = modes(chain(["250 t", "250 t"], ["200 MN/m", "200 MN/m"], 0.02))
-    >>> print(found["natural_frequency"].values.round(3))
+    >>> shapes = modes(chain(["250 t", "250 t"], ["200 MN/m", "200 MN/m"], 0.02))
+    >>> print(shapes["natural_frequency"].values.round(3))
     [2.782 7.284]
-    >>> print(found["mode_shape"].sel(mass="floor_1").values.round(3))
+    >>> print(shapes["mode_shape"].sel(mass="floor_1").values.round(3))
     [0.618 1.   ]
     """
     system = as_assembly(rig)
