@@ -175,6 +175,7 @@ def cases() -> None:
     )
     vi.simulate(problem, 20, frequency="1.2 rad/s")
     vi.steady(problem, frequency="0.7 rad/s")
+    vi.lyapunov_exponents(problem, ["0.7 rad/s"], 20, transient=20, threads=1)
     pair = vi.Assembly(
         masses={"a": "1 kg", "b": "2 kg"},
         links={k: vi.Link("ground", k, vi.Isolator("1 N/m", "0.1 N s/m")) for k in "ab"},
@@ -194,14 +195,16 @@ def record(folder: Path) -> None:
         recorder.close()
 
 
+def zig(target: str, *arguments: str | Path) -> None:
+    """Compile and link for a system that zig knows."""
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-O2", "-s"]
+    subprocess.run([*command, *map(str, arguments)], check=True)
+
+
 def build(folder: Path, target: str) -> Path:
-    """Compile the driver for a system that zig knows."""
+    """Compile the driver for a system."""
     program = folder / ("replay.exe" if "windows" in target else "replay")
-    zig = [sys.executable, "-m", "ziglang", "cc", "-target", target]
-    source = Path(__file__).with_suffix(".c")
-    subprocess.run(
-        [*zig, "-O2", "-s", "-I", str(folder), "-o", str(program), str(source), "-lc"], check=True
-    )
+    zig(target, "-I", folder, "-o", program, Path(__file__).with_suffix(".c"), "-lc")
     return program
 
 
