@@ -22,8 +22,8 @@ def test_each_has_what_is_asked_of_it(forcing: float) -> None:
     assert len(NAMES) == 17
     for name, arguments in NAMES:
         asked = getattr(dispatch.FORCINGS[forcing], name)
-        given = list(inspect.signature(asked).parameters)
-        assert len(given) == len(arguments.split(",")), name
+        parameters = list(inspect.signature(asked).parameters)
+        assert len(parameters) == len(arguments.split(",")), name
         assert callable(getattr(dispatch, name))
 
 
