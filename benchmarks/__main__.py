@@ -54,10 +54,10 @@ def main() -> None:
     show(tables[0], console)
     for name in arguments.only or every:
         with console.status(f"{name} ..."):
-            found = [table for table in every[name]() if table is not None]
-        for table in found:
+            group = [table for table in every[name]() if table is not None]
+        for table in group:
             show(table, console)
-        tables += found
+        tables += group
     tables[0].add("load when it ended", f"{load():.1f}")
     missed = [row[0] for table in tables for row in table.rows if "NOT MET" in row]
     console.print(f"Not met: {'; '.join(missed)}." if missed else "All targets are met.")

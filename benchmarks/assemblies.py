@@ -144,7 +144,7 @@ def assemblies() -> list[Table]:
         ("Solver", "µs a period", "Times the engine's", "State error"),
     )
     verdicts = targets("Targets of several masses")
-    told = []
+    parts = []
     for problem in ASSEMBLIES:
         calls: dict[str, Callable[[], Any]] = {_ENGINE: engine(problem, PERIODS)}
         calls[_SIMULATE] = simulate(problem, PERIODS)
@@ -156,7 +156,7 @@ def assemblies() -> list[Table]:
         said = f"{problem.name}, {of_events:.1f} and {of_series:.0f}"
         if heyoka is not None:
             said += f" (heyoka: {heyoka.steps(built, SCIPY_PERIODS) / SCIPY_PERIODS:.0f} steps)"
-        told.append(said)
+        parts.append(said)
         seconds = interleave(calls, _ROUNDS, clock=time.thread_time)
         for name, values in seconds.items():
             table.add(
@@ -195,7 +195,7 @@ def assemblies() -> list[Table]:
             met(error <= 1e-11),
         )
     table.notes.append(
-        f"Contacts and detachments, and steps, a period: {'; '.join(told)}. scipy runs "
+        f"Contacts and detachments, and steps, a period: {'; '.join(parts)}. scipy runs "
         f"{SCIPY_PERIODS} periods at a relative tolerance of 1e-10. The state error is relative "
         "to the largest displacement and velocity. Linear contact modes have tables."
     )
@@ -308,9 +308,9 @@ def moat() -> Table:
         return table
     for divisions in _DIVISIONS:
         begin = time.thread_time()
-        found = peer.follow(shaken.system, "base", shaken.record, divisions)
+        displacement = peer.follow(shaken.system, "base", shaken.record, divisions)
         spent = time.thread_time() - begin
-        error = float(np.abs(found - exact).max()) / peak
+        error = float(np.abs(displacement - exact).max()) / peak
         for name, what in (("samples", "every sample and event"), ("end", "final state alone")):
             times = spent / spreads[name].median
             last = divisions == _DIVISIONS[-1]

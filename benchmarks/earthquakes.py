@@ -39,21 +39,21 @@ def earthquakes() -> Table:
 
     def ask() -> tuple[float, float, xr.Dataset]:
         begin, worked = time.perf_counter(), time.process_time()
-        found = vi.demands(
+        demands = vi.demands(
             rig, records, scales, intensity="PGA", vary={"gap": gaps}, threads=_THREADS
         )
-        return time.perf_counter() - begin, time.process_time() - worked, found
+        return time.perf_counter() - begin, time.process_time() - worked, demands
 
     vi.demands(rig, records[:1], 1.0)
     timed = [ask() for _ in range(_ROUNDS)]
     seconds, work = (min(values) for values in list(zip(*timed, strict=True))[:2])
-    found = timed[-1][-1]
+    demands = timed[-1][-1]
     table.add(
         f"{runs:,} runs, s", f"{seconds:.1f}", f"under {_SECONDS:g} s", met(seconds < _SECONDS)
     )
     each = work / runs
     table.add("processor time of a run, ms", f"{1e3 * each:.2f}", "", "")
-    impacts = found["impact_count"].sum("stop")
+    impacts = demands["impact_count"].sum("stop")
     table.notes.append(
         f"B3-A3 at gaps of 5 to 20 mm and peaks of 0.1 to 3 m/s²: {float((impacts > 0).mean()):.0%}"
         f" of the runs touch a bumper, with {float(impacts.mean()):.1f} contacts per run. The "
@@ -64,7 +64,7 @@ def earthquakes() -> Table:
     except ImportError as missing:
         table.notes.append(f"OpenSeesPy is not installed ({missing}).")
         return table
-    one = found.isel(record=0, gap=4)
+    one = demands.isel(record=0, gap=4)
     part = rig.replace(
         **{side: getattr(rig, side).replace(gap=float(one["gap"])) for side in ("right", "left")}
     )

@@ -115,7 +115,7 @@ def linear(rig: vi.Oscillator) -> tuple[vi.Isolator, vi.Bumper]:
 
 @entry("i8(f8[::1], f8, f8, f8, i8, f8[::1])")
 def _counted(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -123,7 +123,7 @@ def _counted(
     periods: int,
     state: Vector,
 ) -> int:
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, math.tau * frequency)
     here = state_buffer()
     copy(pointer(state), here, width(plan))

@@ -75,11 +75,11 @@ def page() -> Table | None:
     ready = threading.Event()
     where: list[str] = []
 
-    def told(address: str) -> None:
+    def remember(address: str) -> None:
         where.append(address)
         ready.set()
 
-    server = serving(preset(FIRST), "127.0.0.1", 0, told)
+    server = serving(preset(FIRST), "127.0.0.1", 0, remember)
     threading.Thread(target=lambda: asyncio.run(server), daemon=True).start()
     ready.wait()
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:
@@ -90,7 +90,7 @@ def page() -> Table | None:
         size = file.stat().st_size
         shown.close()
     table = targets("The explorer's page")
-    for words, found, limits in (
+    for words, times, limits in (
         ("", took, (_COARSE, _FINE)),
         ("without a server: ", alone, (_ALONE, _FINE)),
     ):
@@ -98,7 +98,7 @@ def page() -> Table | None:
             (f"slider to painted frame, median of {_MOVES} moves, ms", "median", limits[0]),
             ("fine curves after it is let go, ms", "fine", limits[1]),
         ):
-            value = found[name]
+            value = times[name]
             table.add(words + what, f"{value:.0f}", f"under {limit:g} ms", met(value < limit))
     table.add(
         "size of the file without a server, kB", f"{size / 1e3:.0f}", "under 1000", met(size < 1e6)

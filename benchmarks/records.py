@@ -62,9 +62,9 @@ def records() -> Table:
     exact = vi.simulate(vi.Rig(rig, shaking))["displacement"].values
     for divisions in _DIVISIONS:
         begin = time.thread_time()
-        found = peer.follow(rig, shaking, divisions)
+        displacement = peer.follow(rig, shaking, divisions)
         spent = time.thread_time() - begin
-        error = abs(np.abs(found).max() - np.abs(exact).max()) / np.abs(exact).max()
+        error = abs(np.abs(displacement).max() - np.abs(exact).max()) / np.abs(exact).max()
         ratio = spent / ours.median
         last = divisions == _DIVISIONS[-1]
         table.add(

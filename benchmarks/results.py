@@ -15,25 +15,25 @@ _TARGET = re.compile(r"(under|at most|at least|over) ([\d,.e+-]+)")
 
 def number(text: str) -> float:
     """The first number of a cell: ``"1,353 (1,342 to 1,373)"`` is 1353."""
-    found = re.findall(r"\d[\d,]*\.?\d*(?:e[+-]?\d+)?", text)
-    return float(found[0].replace(",", ""))
+    numbers = re.findall(r"\d[\d,]*\.?\d*(?:e[+-]?\d+)?", text)
+    return float(numbers[0].replace(",", ""))
 
 
 def tables() -> dict[str, list[dict[str, str]]]:
     """Rows of each table by its heading, each row by its columns."""
-    found = {}
+    by_heading = {}
     for heading, body in _TABLE.findall(README.read_text(encoding="utf-8")):
         lines = [
             [cell.strip() for cell in line.strip("|\n").split("|")] for line in body.splitlines()
         ]
-        found[heading] = [dict(zip(lines[0], line, strict=True)) for line in lines[2:]]
-    return found
+        by_heading[heading] = [dict(zip(lines[0], line, strict=True)) for line in lines[2:]]
+    return by_heading
 
 
 def rows(begins: str) -> list[dict[str, str]]:
     """The table whose heading begins so."""
-    (found,) = (table for heading, table in tables().items() if heading.startswith(begins))
-    return found
+    (only,) = (table for heading, table in tables().items() if heading.startswith(begins))
+    return only
 
 
 def against_others() -> Iterator[tuple[str, float]]:

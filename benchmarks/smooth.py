@@ -66,9 +66,12 @@ def smooth() -> list[Table]:
         )
         if heyoka is not None:
             behind = ratio(seconds["heyoka"], seconds["engine"])
-            found = problem.error(PERIODS, *calls["heyoka"]())
+            peer_error = problem.error(PERIODS, *calls["heyoka"]())
             table.add(
-                "heyoka", Spread.of(seconds["heyoka"]).text(scale), behind.text(), f"{found:.1e}"
+                "heyoka",
+                Spread.of(seconds["heyoka"]).text(scale),
+                behind.text(),
+                f"{peer_error:.1e}",
             )
             _judge(verdicts, f"{problem.name}, than heyoka", behind, _LEAST)
         if scipy is not None:
@@ -79,12 +82,12 @@ def smooth() -> list[Table]:
             )
             share = SCIPY_PERIODS / PERIODS
             behind = ratio(pair["scipy"], [share * one for one in pair["engine"]])
-            found = problem.error(SCIPY_PERIODS, *slow())
+            peer_error = problem.error(SCIPY_PERIODS, *slow())
             table.add(
                 "scipy DOP853",
                 Spread.of(pair["scipy"]).text(1e6 / SCIPY_PERIODS),
                 behind.text(),
-                f"{found:.1e}",
+                f"{peer_error:.1e}",
             )
             _judge(verdicts, f"{problem.name}, than scipy DOP853", behind, _LEAST_OF_SCIPY)
         verdicts.add(

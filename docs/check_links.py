@@ -38,7 +38,7 @@ def broken(site: Path) -> list[str]:
         for path in sorted(site.rglob("*.html"))
         if "_static" not in path.parts
     }
-    found = []
+    lines = []
     for path, page in pages.items():
         for target in sorted(page.targets):
             parts = urlsplit(target)
@@ -48,8 +48,8 @@ def broken(site: Path) -> list[str]:
             place = unquote(parts.fragment)
             known = pages.get(there)
             if not there.is_file() or (place and known and place not in known.places):
-                found.append(f"{path.relative_to(site)}: {target}")
-    return found
+                lines.append(f"{path.relative_to(site)}: {target}")
+    return lines
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def wide(site: Path, browser: str) -> list[str]:
     pages = [path.relative_to(site).as_posix() for path in sorted(site.rglob("*.html"))]
     chosen = [name for name in pages if not any(part in name for part in (ALIKE, *LEFT_OUT))]
     chosen += sorted((name for name in pages if ALIKE in name), key=len)[-LONGEST:]
-    found = []
+    lines = []
     with sync_playwright() as driver:
         shown = driver.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         page = shown.new_page(viewport={"width": WIDTH, "height": 800})
@@ -39,9 +39,9 @@ def wide(site: Path, browser: str) -> list[str]:
             page.evaluate("window.MathJax?.startup?.promise")
             width = page.evaluate(WIDEST)
             if width > WIDTH:
-                found.append(f"{name}: {width} pixels wide on a screen of {WIDTH}")
+                lines.append(f"{name}: {width} pixels wide on a screen of {WIDTH}")
         shown.close()
-    return found
+    return lines
 
 
 if __name__ == "__main__":

@@ -90,13 +90,13 @@ def _without_code(text: str) -> str:
 
 def avoided(path: Path) -> list[str]:
     """Return a line for each use of an avoided word in a file."""
-    found = []
+    lines = []
     for line, text in sentences(path):
         for pattern, better in AVOIDED:
             for use in re.finditer(pattern, text):
                 at = line + text.count("\n", 0, use.start())
-                found.append(f"{path}:{at}: {' '.join(use[0].split())!r}; write: {better}")
-    return found
+                lines.append(f"{path}:{at}: {' '.join(use[0].split())!r}; write: {better}")
+    return lines
 
 
 def files(paths: list[Path]) -> Iterator[Path]:

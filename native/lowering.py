@@ -35,7 +35,7 @@ _module_of = attrgetter("library._final_module")
 
 def functions() -> Iterator[tuple[Compiled, Any]]:
     """Each function of the engine that is compiled, with a first argument of each of its types."""
-    names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
+    names = [info.name for info in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
     for name in names:
         for value in vars(importlib.import_module(name)).values():
             if isinstance(value, Entry | RiglessEntry) and value.function.__module__ == name:
@@ -51,7 +51,7 @@ def lower_all(pool: Executor, wanted: Callable[[str], bool]) -> Iterator[tuple[s
     if not folder.exists():
         shutil.rmtree(KEPT, ignore_errors=True)
         folder.mkdir(parents=True)
-    names = [compiled.symbol(type(given)) for compiled, given in functions()]
+    names = [compiled.symbol(type(first)) for compiled, first in functions()]
     missing = [
         k for k, name in enumerate(names) if wanted(name) and not (folder / f"{name}.bc").exists()
     ]
@@ -73,13 +73,13 @@ def _digest() -> str:
 
 def lowered(index: int) -> tuple[str, bytes]:
     """Name and code of a function as numba lowers it, with all that it calls."""
-    compiled, given = list(functions())[index]
+    compiled, first = list(functions())[index]
     arguments, result = normalize_signature(compiled.signature)
     dispatcher = numba.njit(**jit.OPTIONS)(compiled.function)
     gc.disable()
     # Of no name: nothing is optimised, which would be for this processor, and nothing is emitted.
     with kernel_linking.only(""):
-        dispatcher.compile(result(numba.typeof(given), *arguments))
+        dispatcher.compile(result(numba.typeof(first), *arguments))
     gc.enable()
     (made,) = dispatcher.overloads.values()
     module = llvm.parse_assembly(_without_places(str(_module_of(made))))
@@ -88,7 +88,7 @@ def lowered(index: int) -> tuple[str, bytes]:
     for one in (*module.functions, *module.global_variables):
         if not one.is_declaration and one.name != name:
             one.linkage = "internal"
-    symbol = compiled.symbol(type(given))
+    symbol = compiled.symbol(type(first))
     module.get_function(name).name = symbol
     return symbol, module.as_bitcode()
 

@@ -63,7 +63,7 @@ def _compute(words: argparse.Namespace) -> None:
     chosen = _chosen(words.only, items.ITEMS, claims.CLAIMS)
     with output_folder(words.output) as folder:
         with progress_bar("computing the study") as progress:
-            found = report.compute(
+            results = report.compute(
                 PublishedStudy(threads),
                 folder.path,
                 *chosen,
@@ -71,9 +71,9 @@ def _compute(words: argparse.Namespace) -> None:
                 figure=words.figure,
                 progress=progress,
             )
-        files = report.write(found, folder.path)
-        images = {one.item.key: folder / one.image for one in found.shown if one.image}
-    tell(summary.text(found), summary.facts(found), folder, {**files, **images}, words.json)
+        files = report.write(results, folder.path)
+        images = {one.item.key: folder / one.image for one in results.shown if one.image}
+    tell(summary.text(results), summary.facts(results), folder, {**files, **images}, words.json)
 
 
 def _chosen(

@@ -32,16 +32,16 @@ _WILD: dict[str, Any] = {"facecolor": "#fbe3bd", "lw": 0.0, "label": "no periodi
 def draw(study: PublishedStudy) -> Figure:
     """Draw the whole range on the left, and the range around 1 Hz on the right."""
     data = study.curves(CODE, low=LOW)
-    found = features(data)
+    curve_features = features(data)
     branch = study.antisymmetric_branch(CODE, *BRANCH)
     figure = Figure(figsize=(13.0, 6.8), layout="constrained")
     axes = figure.subplots(2, 2, sharex="col", width_ratios=[2.2, 1.0])
     near = data.sel(frequency=slice(*BRANCH))
     for column, part in ((0, data), (1, near)):
-        resonance_curves(part, axes[:, column], curve_features=found, physical=False)
+        resonance_curves(part, axes[:, column], curve_features=curve_features, physical=False)
         for ax, excursion in zip(axes[:, column], _EXCURSIONS.values(), strict=True):
             _unstable(ax, data, branch, excursion)
-            _unsettled(ax, found)
+            _unsettled(ax, curve_features)
     for ax, (quantity, excursion) in zip(axes[:, 1], _EXCURSIONS.items(), strict=True):
         low = float((branch[excursion] / _reference(data, excursion)).min())
         high = float(near[quantity].max())
@@ -87,12 +87,12 @@ def _unstable(ax: Axes, data: xr.Dataset, branch: xr.Dataset, excursion: str) ->
     )
 
 
-def _unsettled(ax: Axes, found: Features) -> None:
+def _unsettled(ax: Axes, curve_features: Features) -> None:
     """Shade the ranges without periodic motions, because crosses are hard to see between marks."""
     for line in list(ax.lines):
         if "not settled" in str(line.get_label()):
             line.remove()
-    for item in found.unsettled:
+    for item in curve_features.unsettled:
         if item.direction == "forward":
             ax.axvspan(item.low, item.high, zorder=0, **_WILD)
 

@@ -44,9 +44,9 @@ def isolators(study: PublishedStudy) -> Table:
     wanted = [f"{1e-3 * k:.2f} kN/m, 0.15" for k in laboratory.ISOLATOR_STIFFNESS.values()]
     rows = [("target", "", *wanted)]
     for name, law in laboratory.REFINED.items():
-        told = str(law).split("(", 1)[1].removesuffix(")")
+        parameters = str(law).split("(", 1)[1].removesuffix(")")
         each = (equivalent(name, a) for a in laboratory.ACCELERATIONS)
-        rows.append((name, told, *(f"{1e-3 * k:.2f} kN/m, {ratio:.3f}" for k, ratio in each)))
+        rows.append((name, parameters, *(f"{1e-3 * k:.2f} kN/m, {ratio:.3f}" for k, ratio in each)))
     heads = (
         f"stiffness and damping ratio at {a / GRAVITY:.2f} g"
         for a in laboratory.ACCELERATIONS.values()

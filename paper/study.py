@@ -96,8 +96,8 @@ class PublishedStudy:
     def _once(self, key: Any, make: Callable[[], _T]) -> _T:
         if key not in self._made:
             self._made[key] = make()
-        found: _T = self._made[key]
-        return found
+        value: _T = self._made[key]
+        return value
 
     def campaign(self) -> xr.Dataset:
         """Return the curves of the 48 tests, 0.5 to 5 Hz. The dim ``rig`` has the case codes."""
@@ -202,8 +202,8 @@ class PublishedStudy:
         forward sweep jumps down. All are determined from η_a of the forward sweep.
         """
         data = self.curves(code, parameters)
-        found = features(data)
-        mine = [p for p in found.peaks if (p.direction, p.curve) == ("forward", "eta_a")]
+        curve_features = features(data)
+        mine = [p for p in curve_features.peaks if (p.direction, p.curve) == ("forward", "eta_a")]
         secondary = max((p for p in mine if not p.primary), key=lambda peak: peak.value)
         primary = next(p for p in mine if p.primary)
         between = (
@@ -212,7 +212,11 @@ class PublishedStudy:
             .sel(frequency=slice(secondary.frequency, primary.frequency))
         )
         valley = float(between["frequency"][int(between.values.argmin())])
-        down = [j for j in found.jumps if j.direction == "forward" and not j.upward and j.settled]
+        down = [
+            j
+            for j in curve_features.jumps
+            if j.direction == "forward" and not j.upward and j.settled
+        ]
         return secondary.frequency, valley, down[-1].before
 
     def other_places(self, code: str, low: float = LOW) -> tuple[float, float]:
@@ -222,12 +226,14 @@ class PublishedStudy:
         which the forward sweep reaches no periodic motion.
         """
         data = self.curves(code, low=low)
-        found = features(data)
+        curve_features = features(data)
         left = max(
-            (h for h in found.hysteresis if h.side == "left"), key=lambda one: one.high - one.low
+            (h for h in curve_features.hysteresis if h.side == "left"),
+            key=lambda one: one.high - one.low,
         )
         wild = max(
-            (r for r in found.unsettled if r.direction == "forward"), key=lambda one: one.holds
+            (r for r in curve_features.unsettled if r.direction == "forward"),
+            key=lambda one: one.holds,
         )
 
         def middle(first: float, last: float) -> float:

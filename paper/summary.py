@@ -12,13 +12,13 @@ from paper.claim import Verdict
 from paper.report import Report
 
 
-def facts(found: Report) -> dict[str, Any]:
+def facts(results: Report) -> dict[str, Any]:
     """Return the verdicts as plain values."""
     return {
-        "verdicts": {str(verdict): count for verdict, count in found.counts.items()},
+        "verdicts": {str(verdict): count for verdict, count in results.counts.items()},
         "kinds": {
             str(kind): {str(verdict): count for verdict, count in counts.items()}
-            for kind, counts in found.kinds.items()
+            for kind, counts in results.kinds.items()
         },
         "claims": [
             {
@@ -30,22 +30,22 @@ def facts(found: Report) -> dict[str, Any]:
                 "verdict": str(one.finding.verdict),
                 "number": one.finding.number,
             }
-            for one in found.judged
+            for one in results.judged
         ],
     }
 
 
-def text(found: Report) -> RenderableType:
+def text(results: Report) -> RenderableType:
     """Return the verdicts by kind, and the statements that are not reproduced."""
     parts: list[RenderableType] = []
-    if found.judged:
-        parts.append(Text(f"Statements of the paper: {len(found.judged)}"))
-        parts += [Text(f"  {count:3} {verdict}") for verdict, count in found.counts.items()]
+    if results.judged:
+        parts.append(Text(f"Statements of the paper: {len(results.judged)}"))
+        parts += [Text(f"  {count:3} {verdict}") for verdict, count in results.counts.items()]
         parts += [Text(), Text("By kind")]
-        for kind, counts in found.kinds.items():
+        for kind, counts in results.kinds.items():
             shares = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
             parts.append(Text(f"  {kind}: {shares}"))
-        lost = found.of(Verdict.NOT_REPRODUCED)
+        lost = results.of(Verdict.NOT_REPRODUCED)
         if lost:
             parts += [Text(), Text("Not reproduced")]
         for one in lost:

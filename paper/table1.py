@@ -18,8 +18,8 @@ PRINTED: dict[str, dict[str, float]] = {
 
 def computed() -> dict[str, dict[str, float]]:
     """Return the same values, computed from the parameters of the rig and not rounded."""
-    found = laboratory.table_1()
-    return {a: found.gap[a] | found.stiffness_ratio[a] for a in laboratory.ACCELERATIONS}
+    values = laboratory.table_1()
+    return {a: values.gap[a] | values.stiffness_ratio[a] for a in laboratory.ACCELERATIONS}
 
 
 def written(name: str, value: float) -> str:

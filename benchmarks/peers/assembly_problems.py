@@ -63,8 +63,8 @@ class Masses:
         """Greatest error of the displacements and velocities, over the largest of their kind."""
         true, n = self.reference[periods], len(self.masses)
         return max(
-            max(abs(a - b) for a, b in zip(found, exact, strict=True)) / max(map(abs, exact))
-            for found, exact in ((end[:n], true[:n]), (end[n : 2 * n], true[n:]))
+            max(abs(a - b) for a, b in zip(values, exact, strict=True)) / max(map(abs, exact))
+            for values, exact in ((end[:n], true[:n]), (end[n : 2 * n], true[n:]))
         )
 
 

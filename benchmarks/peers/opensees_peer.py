@@ -20,17 +20,17 @@ _PENALTY = 1e4
 
 def _opensees() -> Any:
     """The module; its wheel has the libraries that it needs, but not where they are looked for."""
-    found = importlib.util.find_spec("openseespylinux")
-    if found is not None and found.submodule_search_locations:
-        folder = Path(found.submodule_search_locations[0]) / "lib"
+    spec = importlib.util.find_spec("openseespylinux")
+    if spec is not None and spec.submodule_search_locations:
+        folder = Path(spec.submodule_search_locations[0]) / "lib"
         for name in ("quadmath.so.0", "gfortran.so.4", "blas.so.3", "lapack.so.3", "gomp.so.1"):
             if (folder / f"lib{name}").exists():
                 ctypes.CDLL(str(folder / f"lib{name}"), mode=ctypes.RTLD_GLOBAL)
     try:
-        import openseespy.opensees as found_module
+        import openseespy.opensees as module
     except RuntimeError as error:
         raise ImportError(str(error)) from None
-    return found_module
+    return module
 
 
 ops = _opensees()
@@ -103,12 +103,12 @@ def follow(rig: Oscillator, record: Record, divisions: int) -> NDArray[np.float6
 def stepped(node: int, record: Record, divisions: int) -> NDArray[np.float64]:
     """Displacements of a node at the record's samples."""
     count = len(record.acceleration)
-    found = np.zeros(count)
+    displacement = np.zeros(count)
     for k in range(1, count):
         if ops.analyze(divisions, record.step / divisions):
             raise ArithmeticError(f"OpenSees gave up at sample {k}")
-        found[k] = ops.nodeDisp(node, 1)
-    return found
+        displacement[k] = ops.nodeDisp(node, 1)
+    return displacement
 
 
 def peak(rig: Oscillator, record: Record, divisions: int) -> float:

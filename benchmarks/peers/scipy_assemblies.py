@@ -87,7 +87,7 @@ def run(
         if pressed not in motions:
             motions[pressed] = motion(pressed)
         first = min(steps[pressed], end - t) if pressed in steps else None
-        found = solve_ivp(
+        solution = solve_ivp(
             motions[pressed],
             (t, end),
             y,
@@ -97,14 +97,14 @@ def run(
             rtol=rtol,
             atol=atol,
         )
-        if found.status < 0:
-            raise RuntimeError(found.message)
-        if found.t.size > 2:
-            steps[pressed] = float(np.diff(found.t)[:-1].max())
-        t, y = float(found.t[-1]), found.y[:, -1]
-        if found.status == 0:
+        if solution.status < 0:
+            raise RuntimeError(solution.message)
+        if solution.t.size > 2:
+            steps[pressed] = float(np.diff(solution.t)[:-1].max())
+        t, y = float(solution.t[-1]), solution.y[:, -1]
+        if solution.status == 0:
             return tuple(y.tolist())
-        (b,) = (i for i, times in enumerate(found.t_events) if times.size)
+        (b,) = (i for i, times in enumerate(solution.t_events) if times.size)
         if b in pressed:
             memory[b] = float(rows[b] @ y[:n]) - problem.bumpers[b].gap, t
         pressed ^= {b}

@@ -77,7 +77,7 @@ def run(problem: Smooth, periods: int, rtol: float = 1e-12) -> tuple[float, floa
         t, y = float(solution.t[-1]), solution.y[:, -1].copy()
         if solution.status == 0:
             return float(y[0]), float(y[1])
-        which = next(i for i, found in enumerate(solution.t_events) if found.size)
+        which = next(i for i, times in enumerate(solution.t_events) if times.size)
         if which >= stops:
             y[1 + which - stops] = 0.0
             if which == stops:

@@ -29,14 +29,14 @@ class Pictures:
     def __repr__(self) -> str:
         return "the last value of a block, if it is drawn"
 
-    def __call__(self, block: Any, found: dict[str, Any], gallery: dict[str, Any]) -> str:
+    def __call__(self, block: Any, block_vars: dict[str, Any], gallery: dict[str, Any]) -> str:
         """Write the picture, and return the reST that shows it."""
-        values = found["example_globals"]
+        values = block_vars["example_globals"]
         figure = _figure_of(values.get("___"))
         if figure is None:
             return ""
         values["___"] = None  # or the next block would show it again
-        path = next(found["image_path_iterator"])
+        path = next(block_vars["image_path_iterator"])
         figure.savefig(path, dpi=DOTS_PER_INCH)
         return figure_rst([path], gallery["src_dir"])
 
@@ -91,8 +91,8 @@ def forget_what_is_stale() -> None:
 
 
 def _package() -> str:
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for path in sorted((ROOT / "src").rglob("*.py")):
-        found.update(path.relative_to(ROOT).as_posix().encode())
-        found.update(path.read_bytes())
-    return found.hexdigest()
+        digest.update(path.relative_to(ROOT).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()

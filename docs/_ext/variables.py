@@ -53,10 +53,10 @@ def result(name: str) -> xr.Dataset:
 
     folder = Path(tempfile.mkdtemp())
     arguments.write_files(folder)
-    function, given = arguments.calls(folder)[name]
+    function, keywords = arguments.calls(folder)[name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the calls are short on purpose
-        return function(**given)
+        return function(**keywords)
 
 
 def _append(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:

@@ -18,16 +18,16 @@ _CODES = tuple(f"B3-{gap}-A3" for gap in reversed(GAPS))
 
 def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
     """Return the downward and upward jump at the primary resonance (Hz) of rigs that have both."""
-    found = {}
+    pairs = {}
     for code in data["rig"].values:
         jumps = [j for j in features(data.sel(rig=code, drop=True)).jumps if j.settled]
         down = [j.frequency for j in jumps if j.direction == "forward" and not j.upward]
         up = [j.frequency for j in jumps if j.direction == "backward" and j.upward]
         if down and up:
-            found[str(code)] = max(down), max(up)
-    if len(found) < 2:
+            pairs[str(code)] = max(down), max(up)
+    if len(pairs) < 2:
         raise AbsentError("fewer than two of the curves have both jumps")
-    return found
+    return pairs
 
 
 @claim(
@@ -41,14 +41,14 @@ def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
 )
 def along_gap(study: PublishedStudy) -> Finding:
     """Check that the order never reverses, and that no scenario is missing."""
-    found = [study.classification(code, *_RANGE).scenario for code in _CODES]
-    told = ", ".join(
-        f"{code.split('-')[1]} {scenario}" for code, scenario in zip(_CODES, found, strict=True)
+    scenarios = [study.classification(code, *_RANGE).scenario for code in _CODES]
+    listing = ", ".join(
+        f"{code.split('-')[1]} {scenario}" for code, scenario in zip(_CODES, scenarios, strict=True)
     )
     return Finding(
-        found == sorted(found)
-        and {"S2", "S3", "S4", "S5"} <= set(found) <= {f"S{k}" for k in range(6)},
-        told,
+        scenarios == sorted(scenarios)
+        and {"S2", "S3", "S4", "S5"} <= set(scenarios) <= {f"S{k}" for k in range(6)},
+        listing,
     )
 
 
@@ -62,11 +62,13 @@ def along_gap(study: PublishedStudy) -> Finding:
 )
 def jumps_along_gap(study: PublishedStudy) -> Finding:
     """Compare the jumps from the widest gap with a jump to the smallest one."""
-    found = jumps_of(study.by_gap().sel(rig=list(_CODES)))
-    down, up = np.array(list(found.values())).T
-    told = ", ".join(f"{code.split('-')[1]} {d:.2f} and {u:.2f}" for code, (d, u) in found.items())
+    jumps = jumps_of(study.by_gap().sel(rig=list(_CODES)))
+    down, up = np.array(list(jumps.values())).T
+    listing = ", ".join(
+        f"{code.split('-')[1]} {d:.2f} and {u:.2f}" for code, (d, u) in jumps.items()
+    )
     rising = (np.diff(down) > 0).all() and (np.diff(up) > 0).all()
-    return Finding(rising and np.ptp(up) < np.ptp(down), f"downward and upward jump: {told} Hz")
+    return Finding(rising and np.ptp(up) < np.ptp(down), f"downward and upward jump: {listing} Hz")
 
 
 def _maxima(study: PublishedStudy, curve: Curve, direction: Direction) -> tuple[Array, float]:
@@ -89,7 +91,7 @@ def _gap(k: int) -> str:
 )
 def bell_along_gap(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
-    told, ranges, holds = [], [], True
+    parts, ranges, holds = [], [], True
     for way in BOTH:
         values, none = _maxima(study, "eta_a", way)
         ranges.append(float(np.ptp(values)))
@@ -98,12 +100,12 @@ def bell_along_gap(study: PublishedStudy) -> Finding:
         turning = int((np.diff(signs) != 0).sum())
         holds &= turning == 1 and bool(signs[0] > 0)
         top = int(values.argmax())
-        told.append(
+        parts.append(
             f"{way} {values[0]:.2f} without bumpers, {values[top]:.2f} at {_gap(top)}, "
             f"{values[-1]:.2f} at {_gap(len(values) - 1)} ({turning} turning point"
             f"{'' if turning == 1 else 's'}); {none:.2f} without a gap"
         )
-    return Finding(holds and ranges[1] < ranges[0], "; ".join(told))
+    return Finding(holds and ranges[1] < ranges[0], "; ".join(parts))
 
 
 @claim(
@@ -115,17 +117,17 @@ def bell_along_gap(study: PublishedStudy) -> Finding:
 )
 def displacement_along_gap(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
-    told, holds = [], True
+    parts, holds = [], True
     for way in BOTH:
         values, none = _maxima(study, "eta_d", way)
         changes, hit = np.diff(values), values[1:] < values[0] - 1e-6
         wrong = (changes > 1e-6) | (hit & (changes >= 0.0))
         holds &= not wrong.any()
-        told.append(
+        parts.append(
             f"{way} {values[0]:.2f} to {values[-1]:.3f}, {int(wrong.sum())} exceptions; "
             f"{none:.3f} without a gap"
         )
-    return Finding(holds, "; ".join(told))
+    return Finding(holds, "; ".join(parts))
 
 
 CLAIMS = (along_gap, jumps_along_gap, bell_along_gap, displacement_along_gap)

@@ -12,9 +12,9 @@ from paper.claims.reading import (
     AbsentError,
     apart,
     claim,
+    describe_onset,
     higher,
     listed,
-    told_onset,
 )
 from paper.study import STEP, STIFFNESSES, PublishedStudy
 from vibroimpact.response.peaks import CURVES
@@ -32,9 +32,11 @@ _CODES = tuple(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES)
 )
 def soft(study: PublishedStudy) -> Finding:
     """Check the scenarios in the order of rising stiffness."""
-    found = [study.classification(code).scenario for code in _CODES]
-    told = ", ".join(f"{s} {f}" for s, f in zip(STIFFNESSES, found, strict=True))
-    return Finding(found == sorted(found, reverse=True) and set(found) == {"S6", "S2"}, told)
+    scenarios = [study.classification(code).scenario for code in _CODES]
+    listing = ", ".join(f"{s} {f}" for s, f in zip(STIFFNESSES, scenarios, strict=True))
+    return Finding(
+        scenarios == sorted(scenarios, reverse=True) and set(scenarios) == {"S6", "S2"}, listing
+    )
 
 
 @claim(
@@ -73,15 +75,15 @@ def soft_motion(study: PublishedStudy) -> Finding:
 )
 def no_secondary(study: PublishedStudy) -> Finding:
     """Use the evidence of the classification."""
-    found = {}
+    exceptions = {}
     for code in _CODES:
         one = study.classification(code)
         if one.features.secondary_resonances(one.thresholds.prominence) or one.features.left:
-            found[code] = one.scenario
+            exceptions[code] = one.scenario
     return Finding(
-        not found,
-        f"{', '.join(found) or f'none with any of {len(_CODES)} bumper stiffnesses'}; "
-        f"{told_onset(study, _CODES)}",
+        not exceptions,
+        f"{', '.join(exceptions) or f'none with any of {len(_CODES)} bumper stiffnesses'}; "
+        f"{describe_onset(study, _CODES)}",
     )
 
 
@@ -96,8 +98,8 @@ def no_secondary(study: PublishedStudy) -> Finding:
 )
 def jumps_along_stiffness(study: PublishedStudy) -> Finding:
     """Follow both jumps. The upward jump occurs where free flight reaches the gap."""
-    found = jumps_of(study.by_stiffness().sel(rig=list(_CODES)))
-    down, up = np.array(list(found.values())).T
+    jumps = jumps_of(study.by_stiffness().sel(rig=list(_CODES)))
+    down, up = np.array(list(jumps.values())).T
     rises = [bool((np.diff(v) >= 0).all()) and v[-1] - v[0] > 1.5 * STEP for v in (down, up)]
     return Finding(
         all(rises) and up[-1] - up[0] < down[-1] - down[0],
@@ -116,13 +118,13 @@ def jumps_along_stiffness(study: PublishedStudy) -> Finding:
 def maxima_along_stiffness(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
     data = study.by_stiffness().sel(rig=list(_CODES))
-    told, holds = [], True
+    parts, holds = [], True
     for curve, sign, name in zip(CURVES, (1, -1), ("η_a", "η_d"), strict=True):
         for way in BOTH:
             most = data[curve].sel(direction=way).max("frequency").values
             holds &= bool((sign * np.diff(most) > 0).all())
-            told.append(f"{name} {way} {most[0]:.3f} to {most[-1]:.3f}")
-    return Finding(holds, "; ".join(told))
+            parts.append(f"{name} {way} {most[0]:.3f} to {most[-1]:.3f}")
+    return Finding(holds, "; ".join(parts))
 
 
 CLAIMS = (soft, soft_motion, no_secondary, jumps_along_stiffness, maxima_along_stiffness)

@@ -46,14 +46,14 @@ def _resonance(study: PublishedStudy) -> float:
 def smooth(study: PublishedStudy) -> Finding:
     """Check that each curve has only one peak."""
     data = _curves(study)
-    found = features(data)
-    others = [p for p in found.peaks if not p.primary]
+    curve_features = features(data)
+    others = [p for p in curve_features.peaks if not p.primary]
     differ = float(apart(data).max())
-    holds = not (found.jumps or found.hysteresis or others) and differ < 1e-6
+    holds = not (curve_features.jumps or curve_features.hysteresis or others) and differ < 1e-6
     return Finding(
         holds,
-        f"{len(found.jumps)} jumps, {len(found.hysteresis)} hystereses, {len(others)} secondary "
-        f"resonances; difference of the directions {at_most(differ)}",
+        f"{len(curve_features.jumps)} jumps, {len(curve_features.hysteresis)} hystereses, "
+        f"{len(others)} secondary resonances; difference of the directions {at_most(differ)}",
     )
 
 
@@ -65,11 +65,12 @@ def smooth(study: PublishedStudy) -> Finding:
 )
 def resonance(study: PublishedStudy) -> Finding:
     """Use the parameters of Table 1."""
-    found = _resonance(study)
+    frequency = _resonance(study)
     rig = _curves(study)["eta_a"].sel(direction="forward")
     return Finding(
-        abs(found - _PRINTED) <= 0.05,
-        f"{found:.2f} Hz in η_d, {float(rig.idxmax('frequency')):.2f} Hz in η_a; printed 5.4 Hz",
+        abs(frequency - _PRINTED) <= 0.05,
+        f"{frequency:.2f} Hz in η_d, {float(rig.idxmax('frequency')):.2f} Hz in η_a; "
+        "printed 5.4 Hz",
     )
 
 

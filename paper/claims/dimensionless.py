@@ -62,13 +62,13 @@ def table_ratios(study: PublishedStudy) -> Finding:
 
 def _of_tests() -> dict[str, tuple[float, float]]:
     """Return λ and δ of the tests, computed from their rigs."""
-    found = {}
+    values = {}
     for code in CODES:
         case = laboratory.case(code)
         bumper = to_dimensionless(Rig(case.oscillator, case.amplitude)).right
         assert bumper is not None
-        found[code] = (bumper.stiffness_ratio, bumper.gap)
-    return found
+        values[code] = (bumper.stiffness_ratio, bumper.gap)
+    return values
 
 
 @claim(
@@ -150,8 +150,8 @@ def middle(study: PublishedStudy) -> Finding:
     """Compare neighbouring bumpers. The result is the same at each acceleration."""
     values = table1.computed()["A3"]
     ratios = [values[BUMPERS[k + 1]] / values[BUMPERS[k]] for k in range(3)]
-    told = ", ".join(f"{BUMPERS[k + 1]}/{BUMPERS[k]} {ratios[k]:.2f}" for k in range(3))
-    return Finding(min(ratios) == ratios[1], told)
+    listing = ", ".join(f"{BUMPERS[k + 1]}/{BUMPERS[k]} {ratios[k]:.2f}" for k in range(3))
+    return Finding(min(ratios) == ratios[1], listing)
 
 
 @claim(
@@ -192,20 +192,22 @@ def only_ratios(study: PublishedStudy) -> Finding:
 )
 def counts(study: PublishedStudy) -> Finding:
     """Count the scenarios of the tests."""
-    found = list(study.scenarios().values())
-    told = {s: found.count(s) for s in sorted(set(found))}
-    holds = set(told) == {"S1", "S2", "S3"} and told["S1"] == 4 and told["S2"] > len(CODES) / 2
-    listing = ", ".join(f"{s}: {n}" for s, n in told.items())
+    scenarios = list(study.scenarios().values())
+    numbers = {s: scenarios.count(s) for s in sorted(set(scenarios))}
+    holds = (
+        set(numbers) == {"S1", "S2", "S3"} and numbers["S1"] == 4 and numbers["S2"] > len(CODES) / 2
+    )
+    listing = ", ".join(f"{s}: {n}" for s, n in numbers.items())
     return Finding(holds, f"{listing}; {from_below(study)}")
 
 
 def _region(
     study: PublishedStudy, ratios: tuple[float, ...], gaps: tuple[float, ...], wanted: str
 ) -> Finding:
-    found = {(ratio, gap): study.scenario_at(ratio, gap) for ratio in ratios for gap in gaps}
-    others = [f"λ {r:g}, δ {g:g}: {s}" for (r, g), s in found.items() if s != wanted]
-    told = f"{wanted} at {len(found) - len(others)} of {len(found)} points"
-    return Finding(not others, "; ".join([told, *others]))
+    scenarios = {(ratio, gap): study.scenario_at(ratio, gap) for ratio in ratios for gap in gaps}
+    others = [f"λ {r:g}, δ {g:g}: {s}" for (r, g), s in scenarios.items() if s != wanted]
+    summary = f"{wanted} at {len(scenarios) - len(others)} of {len(scenarios)} points"
+    return Finding(not others, "; ".join([summary, *others]))
 
 
 @claim(

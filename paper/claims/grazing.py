@@ -83,7 +83,7 @@ def hardly_deformed(study: PublishedStudy) -> Finding:
 )
 def free_flight(study: PublishedStudy) -> Finding:
     """Check the cases that graze in the paper and in Fig. 19, not a gap of exactly u_max."""
-    told, holds = [], True
+    parts, holds = [], True
     for code in (*_TESTS, _COMPUTED):
         data = (study.by_gap() if code == _COMPUTED else study.campaign()).sel(rig=code, drop=True)
         worst = [float(np.abs(data[c] - free(data, c)).max()) for c in CURVES]
@@ -92,8 +92,8 @@ def free_flight(study: PublishedStudy) -> Finding:
         ends = "no jump"
         if jumps:
             ends = f"jumps at {' and '.join(f'{j.frequency:.3f}' for j in jumps)} Hz"
-        told.append(f"{code}: η_a {worst[0]:.2f}, η_d {worst[1]:.2f}, {ends}")
-    return Finding(holds, "; ".join(told))
+        parts.append(f"{code}: η_a {worst[0]:.2f}, η_d {worst[1]:.2f}, {ends}")
+    return Finding(holds, "; ".join(parts))
 
 
 @claim(

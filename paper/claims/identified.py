@@ -19,13 +19,13 @@ _CLOSE = 0.05
 
 def _jumps(study: PublishedStudy, code: str) -> str:
     """Describe the jumps of the primary resonance with fitted parameters."""
-    found = features(study.curves(code, "identified")).jumps
-    told = []
+    jumps = features(study.curves(code, "identified")).jumps
+    parts = []
     for way in BOTH:
-        ends = [j.frequency for j in found if j.direction == way and j.upward == (way != "forward")]
+        ends = [j.frequency for j in jumps if j.direction == way and j.upward == (way != "forward")]
         place = f"{max(ends):.3f} Hz" if ends else "none"
-        told.append(f"{'down' if way == 'forward' else 'up'} {place}")
-    return ", ".join(told)
+        parts.append(f"{'down' if way == 'forward' else 'up'} {place}")
+    return ", ".join(parts)
 
 
 @claim(
@@ -37,9 +37,9 @@ def _jumps(study: PublishedStudy, code: str) -> str:
 )
 def scenarios(study: PublishedStudy) -> Finding:
     """Use the classification of the computed curves."""
-    found = {c: study.classification(c, parameters="identified").scenario for c in (_S3, _S2)}
+    by_test = {c: study.classification(c, parameters="identified").scenario for c in (_S3, _S2)}
     return Finding(
-        found == {_S3: "S3", _S2: "S2"}, ", ".join(f"{c}: {s}" for c, s in found.items())
+        by_test == {_S3: "S3", _S2: "S2"}, ", ".join(f"{c}: {s}" for c, s in by_test.items())
     )
 
 
@@ -121,16 +121,16 @@ def portraits(study: PublishedStudy) -> Finding:
 )
 def stiffness(study: PublishedStudy) -> Finding:
     """Compare both stiffnesses, which describe the isolator at the same acceleration."""
-    told, off = [], []
+    parts, off = [], []
     for code in (_S3, _S2):
         fitted = laboratory.IDENTIFIED[code].stiffness
         table = laboratory.ISOLATOR_STIFFNESS[code[-2:]]
         off.append(fitted / table - 1.0)
-        told.append(
+        parts.append(
             f"{code}: fitted {1e-3 * fitted:.1f} kN/m, for Table 1 {1e-3 * table:.1f} kN/m "
             f"({off[-1]:+.0%})"
         )
-    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(told))
+    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(parts))
 
 
 @claim(
@@ -143,15 +143,15 @@ def stiffness(study: PublishedStudy) -> Finding:
 )
 def damping(study: PublishedStudy) -> Finding:
     """Compare the assumption of Section 7 with the fitted parameters of Section 5."""
-    told, off = [], []
+    parts, off = [], []
     for code in (_S3, _S2):
         case = laboratory.case(code, "identified")
         group = to_dimensionless(Rig(case.oscillator, case.amplitude))
         assert isinstance(group.right, DimensionlessBumper)
         ratio, time = group.damping_ratio, group.right.relaxation_time
         off += [ratio / laboratory.DAMPING_RATIO - 1.0, time / laboratory.RELAXATION_TIME - 1.0]
-        told.append(f"{code}: ξ {ratio:.3f} ({off[-2]:+.0%}), τ {time:.4f} ({off[-1]:+.0%})")
-    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(told))
+        parts.append(f"{code}: ξ {ratio:.3f} ({off[-2]:+.0%}), τ {time:.4f} ({off[-1]:+.0%})")
+    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(parts))
 
 
 CLAIMS = (scenarios, loops, agreement, upward, portraits, stiffness, damping)

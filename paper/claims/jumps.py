@@ -30,14 +30,14 @@ _BACKWARD = (
 
 
 def _forward(study: PublishedStudy, sequences: Sequences) -> Finding:
-    found = jump_trend(study, sequences, "forward")
-    return Finding(found.all_hold, found.told(".2f", " Hz"))
+    rise = jump_trend(study, sequences, "forward")
+    return Finding(rise.all_hold, rise.describe(".2f", " Hz"))
 
 
 def _backward(study: PublishedStudy, sequences: Sequences) -> Finding:
     forward = jump_trend(study, sequences, "forward")
     backward = jump_trend(study, sequences, "backward")
-    return Finding(backward_less(forward, backward), backward.told(".2f", " Hz"))
+    return Finding(backward_less(forward, backward), backward.describe(".2f", " Hz"))
 
 
 _MOVES = tuple(
@@ -61,7 +61,7 @@ _MOVES = tuple(
 
 def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
     """Return the rise of η_a and η_d at the upward jump of the backward sweep, by test."""
-    found = {}
+    rises = {}
     for code in CODES:
         up = [
             j
@@ -70,8 +70,8 @@ def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
         ]
         if up:
             top = max(up, key=lambda one: one.frequency)
-            found[code] = (top.eta_a[1] - top.eta_a[0], top.eta_d[1] - top.eta_d[0])
-    return found
+            rises[code] = (top.eta_a[1] - top.eta_a[0], top.eta_d[1] - top.eta_d[0])
+    return rises
 
 
 @claim(
@@ -109,7 +109,7 @@ def fades(study: PublishedStudy) -> Finding:
     )
     return Finding(
         gap.all_hold and acceleration.all_hold,
-        f"gap: {gap.told('.3f')}; acceleration: {acceleration.told('.3f')}",
+        f"gap: {gap.describe('.3f')}; acceleration: {acceleration.describe('.3f')}",
     )
 
 

@@ -65,12 +65,12 @@ def places(study: PublishedStudy) -> tuple[float, float]:
 )
 def left(study: PublishedStudy) -> Finding:
     """Count the left hystereses from 0.3 Hz, in steps of 0.01 Hz."""
-    found = _left(study)
-    ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in found)
-    above = sum(item.low >= EDGE_LOW for item in found)
+    ranges = _left(study)
+    ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in ranges)
+    above = sum(item.low >= EDGE_LOW for item in ranges)
     return Finding(
-        len(found) >= 2,
-        f"{len(found)} in sweeps from {START:g} Hz ({above} of them above {EDGE_LOW:g} Hz): "
+        len(ranges) >= 2,
+        f"{len(ranges)} in sweeps from {START:g} Hz ({above} of them above {EDGE_LOW:g} Hz): "
         f"{ends or 'none'} Hz",
     )
 
@@ -146,8 +146,8 @@ def loops(study: PublishedStudy) -> Finding:
 )
 def third(study: PublishedStudy) -> Finding:
     """Check that there are two stable orbits and an unstable one."""
-    place, found = places(study)[0], _left(study)
-    widest = max(found, key=lambda item: item.high - item.low)
+    place, ranges = places(study)[0], _left(study)
+    widest = max(ranges, key=lambda item: item.high - item.low)
     branch = study.antisymmetric_branch(CODE, widest.low - 0.1, widest.high + 0.1)
     stable, unstable = orbits_at(branch, place + 1e-6)
     return Finding(

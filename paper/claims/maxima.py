@@ -34,7 +34,7 @@ def _less(forward: list[float], backward: list[float]) -> bool:
     return bool(np.ptp(backward) < np.ptp(forward))
 
 
-def _told(forward: list[float], backward: list[float]) -> str:
+def _describe(forward: list[float], backward: list[float]) -> str:
     return f"G4 to G1: forward {listed(forward, '.3f')}; backward {listed(backward, '.3f')}"
 
 
@@ -50,7 +50,7 @@ def bell(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B2-A3", way) for way in BOTH]
     holds = all(int(np.argmax(values)) in (1, 2) for values in both)
-    return Finding(holds and _less(*both), _told(*both))
+    return Finding(holds and _less(*both), _describe(*both))
 
 
 @claim(
@@ -65,7 +65,7 @@ def ascending(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B1-A1", way) for way in BOTH]
     holds = all((np.diff(values) > 0).all() for values in both)
-    return Finding(holds and _less(*both), _told(*both))
+    return Finding(holds and _less(*both), _describe(*both))
 
 
 @claim(
@@ -80,12 +80,12 @@ def descending(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B4-A3", way) for way in BOTH]
     holds = all((np.diff(values) < 0).all() for values in both)
-    return Finding(holds and _less(*both), _told(*both))
+    return Finding(holds and _less(*both), _describe(*both))
 
 
 def _rise(study: PublishedStudy, sequences: Sequences, direction: Direction) -> Finding:
-    found = peak_trend(study, sequences, "eta_a", direction, 1)
-    return Finding(found.all_hold, found.told(".2f"))
+    rise = peak_trend(study, sequences, "eta_a", direction, 1)
+    return Finding(rise.all_hold, rise.describe(".2f"))
 
 
 @claim(
@@ -113,7 +113,7 @@ def with_acceleration_backward(study: PublishedStudy) -> Finding:
     forward, backward = (peak_trend(study, ALONG_ACCELERATION, "eta_a", way, 1) for way in BOTH)
     example = listed(backward.values["B2-G1"], ".3f")
     return Finding(
-        backward_less(forward, backward), f"{backward.told('.2f')}; B2-G1: {example} (A1 to A3)"
+        backward_less(forward, backward), f"{backward.describe('.2f')}; B2-G1: {example} (A1 to A3)"
     )
 
 
@@ -144,8 +144,8 @@ def with_bumper_backward(study: PublishedStudy) -> Finding:
 def _fall(study: PublishedStudy, sequences: Sequences) -> Finding:
     both = [peak_trend(study, sequences, "eta_d", way, -1) for way in BOTH]
     return Finding(
-        all(found.all_hold for found in both),
-        f"forward: {both[0].told('.2f')}; backward: {both[1].told('.2f')}",
+        all(one.all_hold for one in both),
+        f"forward: {both[0].describe('.2f')}; backward: {both[1].describe('.2f')}",
     )
 
 
@@ -198,13 +198,13 @@ def directions_closer(study: PublishedStudy) -> Finding:
         forward, backward = (peak(study, code, "eta_d", way).value for way in BOTH)
         return forward - backward
 
-    found = trend(ALONG_BUMPER, difference, -1)
+    fall = trend(ALONG_BUMPER, difference, -1)
     stiff = trend({name: codes[1:] for name, codes in ALONG_BUMPER.items()}, difference, -1)
-    example = listed(found.values["G1-A3"], ".3f")
+    example = listed(fall.values["G1-A3"], ".3f")
     return Finding(
-        found.all_hold,
-        f"{found.told('.3f')}; G1-A3: {example} (B1 to B4); from B2 to B4 it falls in {stiff.held} "
-        "sequences",
+        fall.all_hold,
+        f"{fall.describe('.3f')}; G1-A3: {example} (B1 to B4); from B2 to B4 it falls in "
+        f"{stiff.held} sequences",
     )
 
 

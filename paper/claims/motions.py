@@ -15,6 +15,7 @@ from paper.claims.reading import (
     at_most,
     claim,
     contact_span,
+    describe_left,
     harmonics,
     higher,
     impacts,
@@ -23,7 +24,6 @@ from paper.claims.reading import (
     regular_places,
     secondary,
     three_between_jumps,
-    told_left,
     touching,
 )
 from paper.study import PublishedStudy
@@ -48,13 +48,15 @@ _SETS: dict[laboratory.Parameters, str] = {
 )
 def s3(study: PublishedStudy) -> Finding:
     """Use the branch of orbits, because the sweeps miss a hysteresis narrower than 0.01 Hz."""
-    found, left = study.classification(_S3), left_folds(study, _S3)
+    classification, left = study.classification(_S3), left_folds(study, _S3)
     resonances = ", ".join(f"{f:.2f} Hz (prominence {p:.0%})" for f, p in secondary(study, _S3))
-    right = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
+    right = [
+        f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in classification.features.right
+    ]
     return Finding(
-        found.scenario == "S3" and bool(right) and not left,
-        f"{found.scenario}; secondary resonance {resonances or 'none'}; right hysteresis "
-        f"{', '.join(right) or 'none'}; {told_left(left)}",
+        classification.scenario == "S3" and bool(right) and not left,
+        f"{classification.scenario}; secondary resonance {resonances or 'none'}; right hysteresis "
+        f"{', '.join(right) or 'none'}; {describe_left(left)}",
     )
 
 
@@ -88,7 +90,7 @@ def s3_coincide(study: PublishedStudy) -> Finding:
     return Finding(
         worst < 1e-6 and not left,
         f"difference {at_most(worst)} at f_I = {first:.2f} and f_II = {valley:.2f} Hz; "
-        f"{told_left(left)}",
+        f"{describe_left(left)}",
     )
 
 
@@ -103,14 +105,14 @@ def s3_coincide(study: PublishedStudy) -> Finding:
 )
 def s3_harmonics(study: PublishedStudy) -> Finding:
     """Use exact Fourier coefficients."""
-    told, holds = [], True
+    parts, holds = [], True
     for name, frequency in zip(("f_I", "f_II"), regular_places(study, _S3), strict=False):
         motion = study.motion(_S3, frequency, "forward")
         for of in LINES:
             odd = harmonics(motion, of)[:9:2]
             holds &= bool((np.diff(odd) < 0.0).all()) and odd[1] > 0.01
-            told.append(f"at {name}, {of}: {listed(100.0 * odd)} %")
-    return Finding(holds, "; ".join(told))
+            parts.append(f"at {name}, {of}: {listed(100.0 * odd)} %")
+    return Finding(holds, "; ".join(parts))
 
 
 @claim(
@@ -124,13 +126,13 @@ def s3_harmonics(study: PublishedStudy) -> Finding:
 def s3_impacts(study: PublishedStudy) -> Finding:
     """Count the impacts of periodic motions."""
     places = regular_places(study, _S3)
-    found = [study.motion(_S3, f, "forward") for f in places]
-    counts = [impacts(motion) for motion in found]
-    told = "; ".join(
+    motions = [study.motion(_S3, f, "forward") for f in places]
+    counts = [impacts(motion) for motion in motions]
+    listing = "; ".join(
         f"{f:.2f} Hz: {r:g} on the right and {left:g} on the left"
         for f, (r, left) in zip(places, counts, strict=True)
     )
-    return Finding(set(counts) == {(1.0, 1.0)}, told)
+    return Finding(set(counts) == {(1.0, 1.0)}, listing)
 
 
 @claim(
@@ -260,11 +262,13 @@ def dissymmetry(study: PublishedStudy) -> Finding:
 )
 def s2(study: PublishedStudy) -> Finding:
     """Use the classification of the computed curves."""
-    found, others = study.classification(_S2), secondary(study, _S2)
-    ends = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
+    classification, others = study.classification(_S2), secondary(study, _S2)
+    ends = [
+        f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in classification.features.right
+    ]
     return Finding(
-        found.scenario == "S2" and not others,
-        f"{found.scenario}; {len(others)} secondary resonances; right hysteresis "
+        classification.scenario == "S2" and not others,
+        f"{classification.scenario}; {len(others)} secondary resonances; right hysteresis "
         f"{', '.join(ends) or 'none'}",
     )
 
@@ -279,7 +283,7 @@ def s2(study: PublishedStudy) -> Finding:
 )
 def s2_contact(study: PublishedStudy) -> Finding:
     """Also report the result with the parameters of all tests."""
-    told, holds = [], []
+    parts, holds = [], []
     for parameters, name in _SETS.items():
         data = study.tested(_S2, parameters).sel(direction="forward")
         hit = data["frequency"].values[touching(data).values]
@@ -287,8 +291,8 @@ def s2_contact(study: PublishedStudy) -> Finding:
             raise AbsentError(f"{_S2} never hits its bumpers with {name}")
         steps = [round(float(f) / TEST_STEP) for f in (hit[0], hit[-1])]
         holds.append(abs(steps[0] - 7) <= 1 and abs(steps[1] - 20) <= 1)
-        told.append(f"{name}: {hit[0]:.1f} to {hit[-1]:.1f} Hz")
-    return Finding(holds[0], ", ".join(told))
+        parts.append(f"{name}: {hit[0]:.1f} to {hit[-1]:.1f} Hz")
+    return Finding(holds[0], ", ".join(parts))
 
 
 @claim(

@@ -23,8 +23,8 @@ def from_below(study: PublishedStudy) -> str:
     )
 
 
-def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
-    return [c for c, s in found.items() if s == scenario and c.endswith(acceleration)]
+def _with(scenarios: dict[str, str], scenario: str, acceleration: str) -> list[str]:
+    return [c for c, s in scenarios.items() if s == scenario and c.endswith(acceleration)]
 
 
 @claim(
@@ -37,8 +37,8 @@ def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
 )
 def at_a1(study: PublishedStudy) -> Finding:
     """Compare with the lowest plane of Fig. 14."""
-    found = study.scenarios()
-    grazing, rest = _with(found, "S1", "A1"), _with(found, "S2", "A1")
+    scenarios = study.scenarios()
+    grazing, rest = _with(scenarios, "S1", "A1"), _with(scenarios, "S2", "A1")
     holds = {c.split("-")[1] for c in grazing} == {"G4"} and (len(grazing), len(rest)) == (4, 12)
     return Finding(holds, f"S1: {', '.join(grazing) or 'none'}; S2: {len(rest)} tests")
 
@@ -52,9 +52,9 @@ def at_a1(study: PublishedStudy) -> Finding:
 )
 def at_a2_a3(study: PublishedStudy) -> Finding:
     """Compare with the upper planes of Fig. 14."""
-    found = [s for c, s in study.scenarios().items() if not c.endswith("A1")]
-    told = ", ".join(f"{s}: {found.count(s)}" for s in sorted(set(found)))
-    return Finding(set(found) == {"S2", "S3"}, f"{told}; {from_below(study)}")
+    scenarios = [s for c, s in study.scenarios().items() if not c.endswith("A1")]
+    listing = ", ".join(f"{s}: {scenarios.count(s)}" for s in sorted(set(scenarios)))
+    return Finding(set(scenarios) == {"S2", "S3"}, f"{listing}; {from_below(study)}")
 
 
 @claim(
@@ -67,18 +67,18 @@ def at_a2_a3(study: PublishedStudy) -> Finding:
 )
 def transition(study: PublishedStudy) -> Finding:
     """Check that there is no exception."""
-    found = study.scenarios()
+    scenarios = study.scenarios()
     exceptions, both = [], True
     for a in ("A2", "A3"):
-        region = _with(found, "S3", a)
-        both &= bool(region) and bool(_with(found, "S2", a))
+        region = _with(scenarios, "S3", a)
+        both &= bool(region) and bool(_with(scenarios, "S2", a))
         for code in region:
             b, g, _ = code.split("-")
             stiffer, narrower = f"B{int(b[1]) + 1}-{g}-{a}", f"{b}-G{int(g[1]) - 1}-{a}"
             exceptions += [
                 f"{code} but not {other}"
                 for other in (stiffer, narrower)
-                if found.get(other, "S3") != "S3"
+                if scenarios.get(other, "S3") != "S3"
             ]
     return Finding(both and not exceptions, "; ".join(exceptions) or "no exception")
 
@@ -92,8 +92,8 @@ def transition(study: PublishedStudy) -> Finding:
 )
 def region(study: PublishedStudy) -> Finding:
     """Count the tests that are S3."""
-    found = study.scenarios()
-    counts = [len(_with(found, "S3", a)) for a in laboratory.ACCELERATIONS]
+    scenarios = study.scenarios()
+    counts = [len(_with(scenarios, "S3", a)) for a in laboratory.ACCELERATIONS]
     return Finding(
         bool((np.diff(counts) > 0).all()),
         f"{listed(counts, 'd')} tests (A1, A2, A3); {from_below(study)}",

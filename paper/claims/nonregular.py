@@ -151,10 +151,10 @@ def changing(study: PublishedStudy) -> Finding:
     """Count the impacts within the recorded window."""
     place = places(study)[1]
     counts = _by_cycle(study.motion(CODE, place, "forward"))
-    steady = [name for name, found in counts.items() if set(found) == {1}]
-    loose = [name for name, found in counts.items() if len(set(found)) > 1]
-    told = ", ".join(f"{name} {min(c)} to {max(c)}" for name, c in counts.items())
-    return Finding(len(steady) == len(loose) == 1, f"{told} per cycle at {place:.2f} Hz")
+    steady = [name for name, numbers in counts.items() if set(numbers) == {1}]
+    loose = [name for name, numbers in counts.items() if len(set(numbers)) > 1]
+    listing = ", ".join(f"{name} {min(c)} to {max(c)}" for name, c in counts.items())
+    return Finding(len(steady) == len(loose) == 1, f"{listing} per cycle at {place:.2f} Hz")
 
 
 @claim(
@@ -191,10 +191,10 @@ def small(study: PublishedStudy) -> Finding:
 def small_reached(study: PublishedStudy) -> Finding:
     """Use the Floquet multipliers of the orbit."""
     place = places(study)[1]
-    found = study.antisymmetric_orbit(CODE, place, *AROUND)
-    largest = float(np.hypot(found["multiplier_real"], found["multiplier_imag"]).max())
+    orbit = study.antisymmetric_orbit(CODE, place, *AROUND)
+    largest = float(np.hypot(orbit["multiplier_real"], orbit["multiplier_imag"]).max())
     return Finding(
-        int(found["stable"]) == 1,
+        int(orbit["stable"]) == 1,
         f"largest Floquet multiplier {largest:.2f} at {place:.2f} Hz: a disturbance is multiplied "
         "by this factor in every cycle",
     )

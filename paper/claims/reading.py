@@ -59,7 +59,7 @@ def claim(
     """Return a decorator that turns a function into a claim."""
 
     def made(find: Callable[[PublishedStudy], Finding]) -> Claim:
-        def found(study: PublishedStudy) -> Finding:
+        def evaluate(study: PublishedStudy) -> Finding:
             try:
                 holds, number = find(study)
             except AbsentError as absent:
@@ -67,7 +67,7 @@ def claim(
             # Comparisons of arrays give numpy's booleans.
             return Finding(None if holds is None else bool(holds), number)
 
-        return Claim(key, section, statement, quantity, found, kind)
+        return Claim(key, section, statement, quantity, evaluate, kind)
 
     return made
 
@@ -116,7 +116,7 @@ class Trend(NamedTuple):
         """Return whether there are sequences, and all have the trend."""
         return bool(self.moves) and self.held == len(self.moves)
 
-    def told(self, digits: str, unit: str = "") -> str:
+    def describe(self, digits: str, unit: str = "") -> str:
         """Describe the trend in words."""
         low, high = min(self.moves.values()), max(self.moves.values())
         return (
@@ -134,7 +134,7 @@ def trend(
     """
     held, moves, kept = 0, {}, {}
     for name, codes in sequences.items():
-        values = [found for code in codes if (found := value(code)) is not None]
+        values = [number for code in codes if (number := value(code)) is not None]
         if len(values) < 2:
             continue
         changes = sign * np.diff(values)
@@ -188,8 +188,8 @@ def free(data: xr.Dataset, curve: Curve) -> xr.DataArray:
 
 def secondary(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     """Return frequency (Hz) and relative prominence of secondary resonances without hysteresis."""
-    found = study.classification(code)
-    return found.features.secondary_resonances(found.thresholds.prominence)
+    classification = study.classification(code)
+    return classification.features.secondary_resonances(classification.thresholds.prominence)
 
 
 def left_folds(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
@@ -198,24 +198,24 @@ def left_folds(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     They are determined on the branch, so that even hystereses narrower than the step of the sweeps
     are found. Hystereses that only the sweeps show are included.
     """
-    found = study.classification(code).features
-    folds = sorted(found.folds or ())
-    below = [fold for fold in folds if fold < found.top]
+    features = study.classification(code).features
+    folds = sorted(features.folds or ())
+    below = [fold for fold in folds if fold < features.top]
     if len(below) < len(folds):
         below = below[:-1]  # the last is the lower end of the primary hysteresis
     exact = list(zip(below[-2::-2], below[::-2], strict=False))[::-1]
     swept = [
         item.ends
-        for item in found.left
+        for item in features.left
         if not any(low <= item.ends[1] and item.ends[0] <= high for low, high in exact)
     ]
     return sorted([*exact, *swept])
 
 
-def told_left(found: list[tuple[float, float]]) -> str:
+def describe_left(hystereses: list[tuple[float, float]]) -> str:
     """Describe left hystereses in words, with their widths."""
-    told = [f"{low:.4f} to {high:.4f} Hz ({high - low:.3f} Hz wide)" for low, high in found]
-    return f"left hysteresis {', '.join(told)}" if told else "no left hysteresis"
+    parts = [f"{low:.4f} to {high:.4f} Hz ({high - low:.3f} Hz wide)" for low, high in hystereses]
+    return f"left hysteresis {', '.join(parts)}" if parts else "no left hysteresis"
 
 
 def at_onset(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
@@ -224,26 +224,26 @@ def at_onset(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     They belong to the transition to the primary resonance, and are not secondary resonances. Each
     is returned once, as frequency (Hz) and relative prominence.
     """
-    found = study.classification(code)
-    least = found.thresholds.prominence
-    told: list[tuple[float, float]] = []
-    for one in sorted(found.features.peaks, key=lambda p: -p.prominence / p.value):
-        inside = any(low <= one.frequency <= high for low, high in found.features.onset)
+    classification = study.classification(code)
+    least = classification.thresholds.prominence
+    peaks: list[tuple[float, float]] = []
+    for one in sorted(classification.features.peaks, key=lambda p: -p.prominence / p.value):
+        inside = any(low <= one.frequency <= high for low, high in classification.features.onset)
         if one.primary or one.curve != "eta_a" or not inside or one.prominence < least * one.value:
             continue
-        if all(abs(one.frequency - known) > SAME * known for known, _ in told):
-            told.append((one.frequency, one.prominence / one.value))
-    return sorted(told)
+        if all(abs(one.frequency - known) > SAME * known for known, _ in peaks):
+            peaks.append((one.frequency, one.prominence / one.value))
+    return sorted(peaks)
 
 
-def told_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
+def describe_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
     """Describe in words the peaks that are left out because contact begins there."""
-    told = [
+    parts = [
         f"{code} {share:.0%} at {frequency:.2f} Hz"
         for code in codes
         for frequency, share in at_onset(study, code)
     ]
-    return f"left out because contact begins there: {', '.join(told) or 'none'}"
+    return f"left out because contact begins there: {', '.join(parts) or 'none'}"
 
 
 def regular_places(

@@ -82,7 +82,7 @@ def upward(study: PublishedStudy) -> Finding:
     }
     moves = {code: one - other for code, (one, other) in pairs.items()}
     higher = sum(move > 0.0 for move in moves.values())
-    told = ", ".join(
+    listing = ", ".join(
         f"{code} from {pairs[code][1]:.3f} to {pairs[code][0]:.3f} Hz"
         for code in ("B2-G1-A3", "B2-G2-A2")
         if code in pairs
@@ -90,7 +90,7 @@ def upward(study: PublishedStudy) -> Finding:
     least, most = (min(moves.values()), max(moves.values())) if moves else (math.nan, math.nan)
     return Finding(
         bool(moves) and higher == len(moves),
-        f"higher in {higher} of {len(moves)} tests, by {least:+.3f} to {most:+.3f} Hz; {told}",
+        f"higher in {higher} of {len(moves)} tests, by {least:+.3f} to {most:+.3f} Hz; {listing}",
     )
 
 

@@ -16,10 +16,10 @@ from paper.claims.reading import (
     AbsentError,
     claim,
     contact_span,
+    describe_onset,
     free,
     listed,
     secondary,
-    told_onset,
     trend,
 )
 from paper.study import PublishedStudy
@@ -45,11 +45,11 @@ def _penetration(study: PublishedStudy, code: str, low: float, high: float) -> t
 )
 def penetration(study: PublishedStudy) -> Finding:
     """Use the largest penetration over the frequency."""
-    found = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
-    example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
+    fall = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
+    example = listed([1e3 * value for value in fall.values["G1-A3"]], ".2f")
     return Finding(
-        found.all_hold,
-        f"falls in {found.held} of {len(found.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
+        fall.all_hold,
+        f"falls in {fall.held} of {len(fall.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
     )
 
 
@@ -70,11 +70,11 @@ def flat(study: PublishedStudy) -> Finding:
         least, most = _penetration(study, code, low, high)
         return most - least
 
-    found = trend(ALONG_BUMPER, change, -1)
-    example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
+    fall = trend(ALONG_BUMPER, change, -1)
+    example = listed([1e3 * value for value in fall.values["G1-A3"]], ".2f")
     return Finding(
-        found.all_hold,
-        f"falls in {found.held} of {len(found.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
+        fall.all_hold,
+        f"falls in {fall.held} of {len(fall.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
     )
 
 
@@ -125,8 +125,10 @@ def _from_free(study: PublishedStudy, curve: Curve) -> dict[str, float]:
     }
 
 
-def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str:
-    return "; ".join(f"{SYMBOLS[c]}: {name} ({found[c][name]:.3f})" for c, name in chosen.items())
+def _describe(differences: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str:
+    return "; ".join(
+        f"{SYMBOLS[c]}: {name} ({differences[c][name]:.3f})" for c, name in chosen.items()
+    )
 
 
 @claim(
@@ -139,9 +141,9 @@ def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str
 )
 def closest(study: PublishedStudy) -> Finding:
     """Compare both quantities."""
-    found = {curve: _from_free(study, curve) for curve in CURVES}
-    least = {curve: min(values, key=values.__getitem__) for curve, values in found.items()}
-    return Finding(set(least.values()) == {"B1-A1"}, _told(found, least))
+    differences = {curve: _from_free(study, curve) for curve in CURVES}
+    least = {curve: min(values, key=values.__getitem__) for curve, values in differences.items()}
+    return Finding(set(least.values()) == {"B1-A1"}, _describe(differences, least))
 
 
 @claim(
@@ -154,9 +156,9 @@ def closest(study: PublishedStudy) -> Finding:
 )
 def furthest(study: PublishedStudy) -> Finding:
     """Compare both quantities."""
-    found = {curve: _from_free(study, curve) for curve in CURVES}
-    most = {curve: max(values, key=values.__getitem__) for curve, values in found.items()}
-    return Finding(set(most.values()) == {"B4-A3"}, _told(found, most))
+    differences = {curve: _from_free(study, curve) for curve in CURVES}
+    most = {curve: max(values, key=values.__getitem__) for curve, values in differences.items()}
+    return Finding(set(most.values()) == {"B4-A3"}, _describe(differences, most))
 
 
 @claim(
@@ -171,11 +173,11 @@ def furthest(study: PublishedStudy) -> Finding:
 )
 def secondary_where(study: PublishedStudy) -> Finding:
     """List the tests that have a secondary resonance."""
-    found = [code for code in CODES if secondary(study, code)]
-    parts = {part for code in found for part in code.split("-")[1:]}
+    codes = [code for code in CODES if secondary(study, code)]
+    parts = {part for code in codes for part in code.split("-")[1:]}
     return Finding(
         parts == {"A2", "A3", "G1", "G2"},
-        f"{len(found)} tests: {', '.join(found)}; {told_onset(study, CODES)}",
+        f"{len(codes)} tests: {', '.join(codes)}; {describe_onset(study, CODES)}",
     )
 
 
@@ -190,17 +192,17 @@ def secondary_where(study: PublishedStudy) -> Finding:
 )
 def secondary_grows(study: PublishedStudy) -> Finding:
     """Check that there is no exception in the grid of tests."""
-    found = {code for code in CODES if secondary(study, code)}
+    codes = {code for code in CODES if secondary(study, code)}
     lost = []
-    for code in found:
+    for code in codes:
         b, g, a = code.split("-")
         for name, part, step in ((b, "B", 1), (g, "G", -1), (a, "A", 1)):
             neighbour = code.replace(name, f"{part}{int(name[1]) + step}")
-            if neighbour in CODES and neighbour not in found:
+            if neighbour in CODES and neighbour not in codes:
                 lost.append(f"{code} but not {neighbour}")
     return Finding(
-        0 < len(found) < len(CODES) and not lost,
-        "; ".join(lost) or f"no exception among {len(found)} tests",
+        0 < len(codes) < len(CODES) and not lost,
+        "; ".join(lost) or f"no exception among {len(codes)} tests",
     )
 
 
@@ -213,17 +215,17 @@ def secondary_grows(study: PublishedStudy) -> Finding:
 )
 def secondary_higher(study: PublishedStudy) -> Finding:
     """Compare the heights, not the prominences."""
-    told, holds = [], True
+    parts, holds = [], True
     for pair in ALONG_BUMPER:
         heights = []
         for code in (f"{b}-{pair}" for b in BUMPERS[1:]):
-            found = study.classification(code)
-            least = found.thresholds.prominence
+            classification = study.classification(code)
+            least = classification.thresholds.prominence
             heights += [
                 max(
                     (
                         p.value
-                        for p in found.features.secondary
+                        for p in classification.features.secondary
                         if p.direction == "forward" and p.prominence >= least * p.value
                     ),
                     default=np.nan,
@@ -231,13 +233,13 @@ def secondary_higher(study: PublishedStudy) -> Finding:
             ]
         if np.isfinite(heights).all():
             holds &= bool((np.diff(heights) > 0).all())
-            told.append(f"{pair}: {listed(heights, '.3f')}")
-    if not told:
+            parts.append(f"{pair}: {listed(heights, '.3f')}")
+    if not parts:
         raise AbsentError(
             "there is no pair of gap and acceleration with a secondary resonance for each of B2, "
             "B3 and B4"
         )
-    return Finding(holds, "; ".join(told))
+    return Finding(holds, "; ".join(parts))
 
 
 CLAIMS = (

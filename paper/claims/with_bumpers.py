@@ -76,8 +76,8 @@ def _forward_higher(study: PublishedStudy, curve: Curve) -> Finding:
     equal = [c for c, (f, b) in pairs.items() if abs(f - b) <= 1e-6 * f]
     higher = [c for c, (f, b) in pairs.items() if f > b and c not in equal]
     lower = len(CODES) - len(higher) - len(equal)
-    found = study.scenarios()
-    where = ", ".join(f"{code} ({found[code]})" for code in equal)
+    scenarios = study.scenarios()
+    where = ", ".join(f"{code} ({scenarios[code]})" for code in equal)
     return Finding(
         len(higher) == len(CODES),
         f"higher in {len(higher)} of {len(CODES)} tests, lower in {lower or 'none'}"
@@ -162,14 +162,16 @@ def three_motions(study: PublishedStudy) -> Finding:
 )
 def onset(study: PublishedStudy) -> Finding:
     """Check that the frequency falls until it reaches the beginning of the sweep."""
-    found = trend(ALONG_GAP, lambda code: contact_span(study, code)[0], -1)
+    fall = trend(ALONG_GAP, lambda code: contact_span(study, code)[0], -1)
     strictly = all(
         later < earlier or later == LOW
-        for values in found.values.values()
+        for values in fall.values.values()
         for earlier, later in pairwise(values)
     )
-    example = ", ".join(f"{f:.2f}" for f in found.values["B2-A2"])
-    return Finding(found.all_hold and strictly, f"{found.told('.2f', ' Hz')}; B2-A2: {example} Hz")
+    example = ", ".join(f"{f:.2f}" for f in fall.values["B2-A2"])
+    return Finding(
+        fall.all_hold and strictly, f"{fall.describe('.2f', ' Hz')}; B2-A2: {example} Hz"
+    )
 
 
 @claim(
@@ -185,9 +187,9 @@ def larger(study: PublishedStudy) -> Finding:
     more = data["eta_d"] > (1.0 + APART) * free(data, "eta_d")
     count = int(more.any("frequency").sum())
     example = "B2-G1-A3"
-    found = list(runs(data["frequency"].values, more.sel(rig=example).values))
-    told = ", ".join(span(*ends) for ends in found) or "at no frequency"
-    return Finding(count > 0, f"in {count} of {len(CODES)} tests; {example}: {told}")
+    ranges = list(runs(data["frequency"].values, more.sel(rig=example).values))
+    listing = ", ".join(span(*ends) for ends in ranges) or "at no frequency"
+    return Finding(count > 0, f"in {count} of {len(CODES)} tests; {example}: {listing}")
 
 
 @claim(

@@ -49,7 +49,7 @@ GROUPS = {
 
 def entries() -> list[Entry]:
     """The engine's entries, which are compiled once for all flows."""
-    names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
+    names = [info.name for info in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
     return [
         value
         for name in names

@@ -11,8 +11,8 @@ from vibroimpact.engine.flow_dispatch import flow_of
 
 class ForFlow(Compiled):
     def __call__(self, rig: Any, *args: Any) -> Any:
-        given = flow_of(rig)
-        return self.of(given)(given, rig, *args)
+        memory = flow_of(rig)
+        return self.of(memory)(memory, rig, *args)
 
 
 def for_flow(signature: str) -> Callable[[Callable[..., Any]], ForFlow]:

@@ -30,12 +30,12 @@ static uint64_t next(FILE *file) {
     return word;
 }
 
-int main(int count, char **given) {
+int main(int count, char **arguments) {
     static char *regions[100000];
     static uint64_t words[256], result[16];
     if (count != 4) return 2;
-    void *library = open_library(given[1]);
-    FILE *in = fopen(given[2], "rb"), *out = fopen(given[3], "wb");
+    void *library = open_library(arguments[1]);
+    FILE *in = fopen(arguments[2], "rb"), *out = fopen(arguments[3], "wb");
     if (!library || !in || !out) return 4;
     for (;;) {
         uint64_t what = next(in);

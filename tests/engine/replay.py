@@ -40,23 +40,23 @@ class Recorder:
     def function(self, symbol: str, signature: str, first: str) -> Callable[..., Any]:
         """As `native.function`, recorded."""
         call = _FUNCTION(symbol, signature, first)
-        found = native._ARGUMENT.finditer(signature)
-        result = next(found).group()
-        kinds = [first, *(one.group() for one in found)]
+        matches = native._ARGUMENT.finditer(signature)
+        result = next(matches).group()
+        kinds = [first, *(one.group() for one in matches)]
         number = len(self.symbols)
         self.symbols[symbol] = kinds
 
         def recorded(*arguments: Any) -> Any:
             with self.lock:
-                given = (*arguments[0], *arguments[1:]) if _is_tuple(arguments[0]) else arguments
-                arrays = [one for one in given if isinstance(one, np.ndarray)]
+                inputs = (*arguments[0], *arguments[1:]) if _is_tuple(arguments[0]) else arguments
+                arrays = [one for one in inputs if isinstance(one, np.ndarray)]
                 for array in arrays:
                     self._region(array)
                 # The addresses of a table's functions are those of the library that filled it.
                 if "flow_tables" not in symbol:
                     for array in arrays:
                         self._content(array)
-                self._call(number, given, kinds)
+                self._call(number, inputs, kinds)
                 returned = call(*arguments)
                 self._left(symbol, result, returned, arrays)
                 return returned
@@ -93,9 +93,9 @@ class Recorder:
         for one in within:
             self.script.write(struct.pack("<3Q", *one))
 
-    def _call(self, number: int, given: tuple[Any, ...], kinds: list[str]) -> None:
+    def _call(self, number: int, inputs: tuple[Any, ...], kinds: list[str]) -> None:
         words: list[tuple[int, int]] = []
-        for one, kind in zip(given, kinds, strict=True):
+        for one, kind in zip(inputs, kinds, strict=True):
             if kind in _TYPES:
                 packed = struct.pack("<d" if kind == "f8" else "<q", one)
                 words.append((0, int.from_bytes(packed, "little")))
@@ -217,13 +217,13 @@ def largest_difference(folder: Path, answers: Path) -> dict[str, float]:
         assert status in (0, -2), (call["symbol"], status)
         words = np.frombuffer(raw, np.float64 if call["float"] else np.int64, _RESULT, at + 8)
         at += 8 * (1 + _RESULT)
-        found = [(np.array(call["result"], words.dtype), words[: len(call["result"])])]
+        pairs = [(np.array(call["result"], words.dtype), words[: len(call["result"])])]
         for one in call["left"]:
             expected = np.load(folder / f"{number}-{one['at']}.npy")
             there = np.frombuffer(raw, one["type"], expected.size, at).reshape(expected.shape)
-            found.append((expected, there))
+            pairs.append((expected, there))
             at += expected.nbytes
-        for expected, there in found:
+        for expected, there in pairs:
             worst[call["symbol"]] = max(worst.get(call["symbol"], 0.0), _away(expected, there))
     assert at == len(raw)
     return worst

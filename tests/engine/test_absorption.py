@@ -26,9 +26,9 @@ STARTS = np.array([[0.0, 0.0], [0.01, 0.05], [-0.004, 0.08], [0.007, -0.02]])
 
 
 def points() -> np.ndarray:
-    found = np.zeros((len(STARTS), 5))
-    found[:, :2] = STARTS
-    return found
+    coordinates = np.zeros((len(STARTS), 5))
+    coordinates[:, :2] = STARTS
+    return coordinates
 
 
 def followed(region: Region) -> Followed:
@@ -56,24 +56,24 @@ def states_after(cycles: int) -> np.ndarray:
 
 @pytest.mark.parametrize("cycles", [0, 1, 5])
 def test_without_traps_states_are_where_they_lead(cycles):
-    found = begun(NO_TRAPS, cycles)
-    np.testing.assert_allclose(found.states[:, 2:7], states_after(cycles)[:, 2:7], atol=1e-15)
-    np.testing.assert_array_equal(found.states[:, 0], states_after(cycles)[:, 0])
-    assert (found.owner == -1).all()
-    assert (found.cycles == cycles).all()
-    assert (found.outcome == Status.NOT_SETTLED).all()
+    ends = begun(NO_TRAPS, cycles)
+    np.testing.assert_allclose(ends.states[:, 2:7], states_after(cycles)[:, 2:7], atol=1e-15)
+    np.testing.assert_array_equal(ends.states[:, 0], states_after(cycles)[:, 0])
+    assert (ends.owner == -1).all()
+    assert (ends.cycles == cycles).all()
+    assert (ends.outcome == Status.NOT_SETTLED).all()
 
 
 def test_a_ball_catches_the_first_that_comes():
     where = states_after(3)[1, 2:4]
     centre = np.array([*where, 0.0, 0.0, 0.0])
     rows = np.array([ball(7, centre + 1.0, 1e-3), ball(4, centre, 1e-9)])
-    found = begun(Traps(rows, NO_TRAPS.cells, NO_TRAPS.grid), 10)
-    assert list(found.owner) == [-1, 4, -1, -1]
-    assert list(found.cycles) == [10, 3, 10, 10]
-    assert found.outcome[1] == Status.DONE
+    ends = begun(Traps(rows, NO_TRAPS.cells, NO_TRAPS.grid), 10)
+    assert list(ends.owner) == [-1, 4, -1, -1]
+    assert list(ends.cycles) == [10, 3, 10, 10]
+    assert ends.outcome[1] == Status.DONE
     others = states_after(10)[[0, 2, 3]]  # what is caught need not go on
-    np.testing.assert_allclose(found.states[:, 2:7], others[:, 2:7], atol=1e-15)
+    np.testing.assert_allclose(ends.states[:, 2:7], others[:, 2:7], atol=1e-15)
 
 
 def test_cells_catch_as_well():
@@ -82,25 +82,25 @@ def test_cells_catch_as_well():
     cells = np.full((3, 5), -1, dtype=np.int64)
     cells[2, 1] = 9  # row along the velocity, column along the displacement
     corner = where - side * [1.5, 2.5]
-    found = begun(Traps(NO_TRAPS.rows, cells, np.array([*corner, *side])), 10)
-    assert list(found.owner) == [-1, -1, 9, -1]
-    assert found.cycles[2] == 2
+    ends = begun(Traps(NO_TRAPS.rows, cells, np.array([*corner, *side])), 10)
+    assert list(ends.owner) == [-1, -1, 9, -1]
+    assert ends.cycles[2] == 2
 
 
 def test_a_limit_is_told():
-    found = begun(NO_TRAPS, 10, STAGE._replace(max_events=1))
-    assert Status.TOO_MANY_EVENTS in found.outcome
-    given_up = found.outcome == Status.TOO_MANY_EVENTS
-    assert (found.cycles[given_up] < 10).all()
-    assert len(found.states) == (~given_up).sum()
+    ends = begun(NO_TRAPS, 10, STAGE._replace(max_events=1))
+    assert Status.TOO_MANY_EVENTS in ends.outcome
+    given_up = ends.outcome == Status.TOO_MANY_EVENTS
+    assert (ends.cycles[given_up] < 10).all()
+    assert len(ends.states) == (~given_up).sum()
 
 
 def test_it_stops_when_told():
     progress = np.array([0, 1], dtype=np.int64)
     region = Region(STAGE, points(), np.zeros((len(STARTS), 8)), NO_TRAPS, 10)
-    found = follow_region(region, progress)
-    assert (found.outcome == Status.STOPPED).all()
-    assert (found.cycles == 0).all()
+    ends = follow_region(region, progress)
+    assert (ends.outcome == Status.STOPPED).all()
+    assert (ends.cycles == 0).all()
 
 
 def test_a_region_is_all_that_is_needed_elsewhere():

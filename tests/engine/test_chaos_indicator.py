@@ -25,8 +25,8 @@ def held(frequency: float, transient: float, max_cycles: int):
     ready = plan_sweep(vi.Rig(CASE.oscillator, shaken), np.array([frequency]))
     settling = Settling(1e-12, max_cycles, 100, 10_000)
     tally = np.zeros(2, dtype=np.int64)
-    found, _ = rows(ready, "forward", 0.0, settling, tally, transient)
-    return found[0]
+    results, _ = rows(ready, "forward", 0.0, settling, tally, transient)
+    return results[0]
 
 
 def is_plain(row, max_cycles: int) -> bool:
@@ -76,5 +76,5 @@ def test_what_is_plain_is_chaotic() -> None:
     assert len(places) > 3
     for i in places:
         start = ended.state("forward", int(i))
-        told = vi.lyapunov_exponents(CASE, grid[i : i + 1], 1000, start=start, transient=0)
-        assert told["exponents"].max() > 0.0
+        data = vi.lyapunov_exponents(CASE, grid[i : i + 1], 1000, start=start, transient=0)
+        assert data["exponents"].max() > 0.0

@@ -44,8 +44,8 @@ seen = observed(see)
 
 
 @entry("i8(f8[::1], f8[::1], f8, f8, f8, i8, i8, f8[::1])")
-def look(given, rig, state, amplitude, frequency, phase, cycles, max_events, out):
-    plan = planned(given, rig)
+def look(memory, rig, state, amplitude, frequency, phase, cycles, max_events, out):
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     s, c = math.sin(phase), math.cos(phase)
     here = state_buffer()

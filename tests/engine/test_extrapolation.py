@@ -45,7 +45,7 @@ def test_it_takes_a_fraction_of_the_cycles() -> None:
         assert swept["cycles"].where(swept["period"] == 1).mean() < 18
 
 
-def told(rig: vi.Oscillator, shaken: vi.Harmonic):
+def warned_orbit(rig: vi.Oscillator, shaken: vi.Harmonic):
     with pytest.warns(RuntimeWarning, match="is not the motion from rest"):
         return vi.orbit(vi.Rig(rig, shaken), period=1)
 
@@ -59,7 +59,7 @@ def test_what_does_not_attract_is_not_reached() -> None:
         vi.Rig(rig, 0.054322474523786496), np.linspace(0.32, 0.41, 10), max_cycles=1000
     )
     orbits = [
-        told(rig, vi.Harmonic(0.054322474523786496, float(f)))
+        warned_orbit(rig, vi.Harmonic(0.054322474523786496, float(f)))
         for f, n in zip(swept.frequency.values, swept["period"].values[0], strict=True)
         if n == 2
     ]

@@ -59,12 +59,12 @@ CYCLE, EXTREMES, RECORDED, DEMAND, MARGIN, TANGENT, GROWTH = range(7)
     "disturbed",
     "measured",
 )
-def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, events):
+def watched(memory, rig, amplitude, frequency, start, rows, low_high, samples, events):
     """The same cycle, unobserved and under each observer."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     period = 1.0 / frequency
-    state, notes, found = state_buffer(), measures_buffer(), notes_buffer()
+    state, notes, tally = state_buffer(), measures_buffer(), notes_buffer()
     kept, q, w = note_buffer(), np.zeros(25), np.zeros(25)
     for which in range(7):
         copy(pointer(start), state, width(plan))
@@ -84,26 +84,26 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             flow.write(plan, state, pointer(samples), samples.shape[1], SAMPLES)
             low_high[8] = kept[WRITTEN]
         elif which == DEMAND:
-            flow.start_demand(plan, found, 0)
-            count = event_loop.demand(plan, state, S, C, period, MOST, found)
-            low_high[4], low_high[5] = found[0], found[1]
-            low_high[6], low_high[7] = found[2], found[3]
+            flow.start_demand(plan, tally, 0)
+            count = event_loop.demand(plan, state, S, C, period, MOST, tally)
+            low_high[4], low_high[5] = tally[0], tally[1]
+            low_high[6], low_high[7] = tally[2], tally[3]
         elif which == MARGIN:
-            found[0] = math.inf
-            count = event_loop.margin(plan, state, S, C, period, MOST, found)
+            tally[0] = math.inf
+            count = event_loop.margin(plan, state, S, C, period, MOST, tally)
         elif which == TANGENT:
-            found[0], found[1], found[2] = 0.0, 0.0, 0.0
+            tally[0], tally[1], tally[2] = 0.0, 0.0, 0.0
             flow.unit_disturbances(plan, state, pointer(q))
-            count = event_loop.tangent(plan, state, S, C, period, MOST, found, pointer(q))
+            count = event_loop.tangent(plan, state, S, C, period, MOST, tally, pointer(q))
         else:
-            found[0], found[1], found[2], found[3], found[4] = 0.0, 0.0, 0.0, 0.0, 0.0
+            tally[0], tally[1], tally[2], tally[3], tally[4] = 0.0, 0.0, 0.0, 0.0, 0.0
             flow.units(plan, pointer(w))
             q[:] = 0.0
             grows = growth.rows_of(
-                plan, pointer(q), growth.work_buffer(), pointer(w), beyond(found, 3), 2
+                plan, pointer(q), growth.work_buffer(), pointer(w), beyond(tally, 3), 2
             )
             growth.begin_rows(plan, state, grows, 0, 2)
-            count = grown(plan, state, S, C, period, MOST, found, grows)
+            count = grown(plan, state, S, C, period, MOST, tally, grows)
         rows[which, EVENTS] = count
         rows[which, U], rows[which, V] = state[FIRST], state[FIRST + 1]
 
@@ -129,9 +129,9 @@ def test_observers_see_the_motion_and_do_not_disturb_it(name: str) -> None:
 
 
 @entry("void(f8[::1], f8, f8, f8[::1], f8[::1], f8[:, ::1])", "disturbed")
-def asked(given, rig, amplitude, frequency, start, out, q):
+def asked(memory, rig, amplitude, frequency, start, out, q):
     """What a flow tells of a state without following it."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     state, numbers = state_buffer(), parts_buffer()
     copy(pointer(start), state, width(plan))
@@ -183,14 +183,14 @@ def test_what_is_said_of_a_state(name: str) -> None:
 
 
 @entry("i8(f8[::1], f8, f8, f8[::1], f8[::1])")
-def freely(given, rig, amplitude, frequency, start, out):
-    plan = planned(given, rig)
+def freely(memory, rig, amplitude, frequency, start, out):
+    plan = planned(memory, rig)
     flow.begin(plan, amplitude, 2.0 * math.pi * frequency)
-    state, found = state_buffer(), measures_buffer()
+    state, measures = state_buffer(), measures_buffer()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
-    free = flow.undisturbed(plan, state, 0.999, found)
-    out[0], out[1], out[2] = found[U_MOST], found[A_MOST], found[T_MOST]
+    free = flow.undisturbed(plan, state, 0.999, measures)
+    out[0], out[1], out[2] = measures[U_MOST], measures[A_MOST], measures[T_MOST]
     out[3], out[4] = state[FIRST], state[FIRST + 1]
     return free
 

@@ -12,8 +12,8 @@ from vibroimpact.engine.matrix import radius, solve
 def test_the_radius_is_that_of_the_largest_eigenvalue(seed: int) -> None:
     matrix = np.random.default_rng(seed).normal(size=(5, 5))
     matrix[:, 2:4] = 0.0
-    found = radius(matrix.ravel().copy(), np.zeros(25), 5)
-    assert found == pytest.approx(max(abs(np.linalg.eigvals(matrix))), rel=3e-4)
+    value = radius(matrix.ravel().copy(), np.zeros(25), 5)
+    assert value == pytest.approx(max(abs(np.linalg.eigvals(matrix))), rel=3e-4)
     assert radius(np.zeros(25), np.zeros(25), 5) == 0.0
 
 

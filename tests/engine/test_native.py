@@ -156,16 +156,16 @@ def choice() -> native.Choice:
     return native.choose.__wrapped__()
 
 
-def found() -> Path | None:
+def library_path() -> Path | None:
     return choice().path
 
 
 def test_a_library_of_other_sources_is_not_used_and_that_is_announced(
     folder: Path, monkeypatch
 ) -> None:
-    assert found() is not None
+    assert library_path() is not None
     (folder / native.DIGEST).write_text("0")
-    assert found() is None
+    assert library_path() is None
     lines: list[str] = []
     monkeypatch.setattr(jit, "announce", lines.append)
     monkeypatch.setattr(jit, "_announced", threading.Event())
@@ -183,9 +183,9 @@ def test_a_library_that_others_may_write_is_not_used(folder: Path) -> None:
     path.chmod(0o666)
     assert choice().unexpected
     assert repr(str(path)) in choice().why
-    assert found() is None
+    assert library_path() is None
     path.chmod(0o644)
-    assert found() == path
+    assert library_path() == path
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners and modes here")
@@ -202,14 +202,14 @@ def test_a_library_of_the_owner_of_the_sources_is_used_and_of_another_user_is_no
     else:
         monkeypatch.setattr(os, "getuid", lambda: user + 1)
     monkeypatch.setattr(native, "SOURCE", source)
-    assert found() == path
+    assert library_path() == path
     path.chmod(0o646)
     assert "chmod go-w" in choice().why
     path.chmod(0o644)
     monkeypatch.setattr(native, "SOURCE", Path("/"))  # root's
     assert choice().unexpected
     assert f"{str(folder)!r} belongs to another user" in choice().why
-    assert found() is None
+    assert library_path() is None
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners and modes here")
@@ -233,7 +233,7 @@ def test_a_library_that_a_group_may_write_is_used_if_the_group_is_its_owner_alon
         monkeypatch.setattr(pwd, "getpwall", lambda: accounts)
         held = grp.struct_group((name, "x", group, list(members)))
         monkeypatch.setattr(grp, "getgrgid", lambda group: held)
-        return found() == path
+        return library_path() == path
 
     assert used("ann")
     assert used("ann", "ann")
@@ -246,5 +246,5 @@ def test_a_library_that_a_group_may_write_is_used_if_the_group_is_its_owner_alon
 def test_a_processor_that_lacks_features_takes_a_lower_level(folder: Path, monkeypatch) -> None:
     assert native.levels() == list(native.LEVELS[native.machine()])[-len(native.levels()) :]
     monkeypatch.setattr(native, "levels", list)
-    assert found() is None
+    assert library_path() is None
     assert not choice().unexpected

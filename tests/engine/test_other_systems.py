@@ -85,9 +85,9 @@ def differences(
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the driver of this machine")
 def test_a_repeated_call_leaves_the_same_numbers(recorded) -> None:
-    found = differences(recorded, OWN, f"{native.machine()}-linux-gnu", ())
-    assert len(found) > 8
-    assert max(found) == 0.0
+    changes = differences(recorded, OWN, f"{native.machine()}-linux-gnu", ())
+    assert len(changes) > 8
+    assert max(changes) == 0.0
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux loads what is linked")

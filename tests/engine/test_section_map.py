@@ -17,8 +17,8 @@ DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
 def placed(rig: np.ndarray, mode: int, *parts: float) -> Motion:
     state = np.array([mode, 0.0, *parts, 0.0, 0.0, 1.0])
     place(rig, state)
-    found: Motion = unpacked(state)
-    return found
+    motion: Motion = unpacked(state)
+    return motion
 
 
 def put(
@@ -34,7 +34,7 @@ def put(
 
 
 @pytest.mark.parametrize(
-    ("right", "left", "given", "mode", "u", "deformations"),
+    ("right", "left", "start", "mode", "u", "deformations"),
     [
         # In flight a bumper's deformation is its own, but it does not pull.
         (DAMPED, DAMPED, (FLIGHT, 0.5, 0.0, 0.1, -0.1), FLIGHT, 0.5, (0.1, 0.0)),
@@ -55,18 +55,18 @@ def put(
         (None, DAMPED, (FLIGHT, 9.0, 0.0, 0.0, 0.0), FLIGHT, 9.0, (0.0, 0.0)),
     ],
 )
-def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations) -> None:
-    found = put(right, left, *given)
-    assert found.mode == found.fresh == mode
-    assert found.u == u
-    assert found.v == given[2]
-    assert found.faces == pytest.approx(deformations, abs=1e-15)
+def test_the_nearest_state_that_can_be(right, left, start, mode, u, deformations) -> None:
+    motion = put(right, left, *start)
+    assert motion.mode == motion.fresh == mode
+    assert motion.u == u
+    assert motion.v == start[2]
+    assert motion.faces == pytest.approx(deformations, abs=1e-15)
 
 
 def test_a_spring_that_yields_is_not_stretched_further() -> None:
     rig = rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(hysteretic=2.0, limit=0.2))
-    for given, z in ((0.1, 0.1), (0.3, 0.2), (-7.0, -0.2)):
-        assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, given).z == z
+    for memory, z in ((0.1, 0.1), (0.3, 0.2), (-7.0, -0.2)):
+        assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, memory).z == z
 
 
 def test_a_stop_without_memory_keeps_its_closing_speed_only_where_it_is_pressed() -> None:

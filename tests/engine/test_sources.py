@@ -28,8 +28,8 @@ BUILT = (
 
 
 def decorators(function: ast.FunctionDef) -> set[str]:
-    found = (d.func if isinstance(d, ast.Call) else d for d in function.decorator_list)
-    return {d.id for d in found if isinstance(d, ast.Name)}
+    nodes = (d.func if isinstance(d, ast.Call) else d for d in function.decorator_list)
+    return {d.id for d in nodes if isinstance(d, ast.Name)}
 
 
 def forbidden(source: str) -> list[str]:
@@ -50,7 +50,7 @@ def forbidden(source: str) -> list[str]:
 def test_no_kernel_allocates() -> None:
     files = sorted(ENGINE.rglob("*.py"))
     assert len(files) > 20
-    wrong = {p.name: found for p in files if (found := forbidden(p.read_text(encoding="utf-8")))}
+    wrong = {p.name: uses for p in files if (uses := forbidden(p.read_text(encoding="utf-8")))}
     assert wrong == {}
 
 
@@ -74,15 +74,15 @@ def test_the_search_finds_what_it_is_for(line: str, decorator: str) -> None:
 def test_python_calls_no_kernel():
     """Above the engine only entries are used: kernels cannot be called from Python."""
     wrong = []
-    for found in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."):
-        if found.name.startswith("vibroimpact.engine.") or found.name == "vibroimpact.__main__":
+    for info in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."):
+        if info.name.startswith("vibroimpact.engine.") or info.name == "vibroimpact.__main__":
             continue
-        module = importlib.import_module(found.name)
+        module = importlib.import_module(info.name)
         values = list(vars(module).values())
         for node in ast.walk(ast.parse(inspect.getsource(module))):
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
                 owner = vars(module).get(node.value.id)
                 if inspect.ismodule(owner) and owner.__name__.startswith("vibroimpact.engine"):
                     values.append(getattr(owner, node.attr, None))
-        wrong += [(found.name, one.__name__) for one in values if isinstance(one, Dispatcher)]
+        wrong += [(info.name, one.__name__) for one in values if isinstance(one, Dispatcher)]
     assert not wrong

@@ -159,9 +159,9 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
 def test_what_does_not_go_together_is_told_in_one_line(table, message):
     with pytest.raises(vi.InputError) as caught:
         vi.Oscillator.model_validate({"mass": MASS, "isolator": table}, where="oscillator")
-    told = str(caught.value)
-    assert told.startswith(f"oscillator.isolator.{message}")
-    assert "\n" not in told
+    text = str(caught.value)
+    assert text.startswith(f"oscillator.isolator.{message}")
+    assert "\n" not in text
 
 
 def test_without_a_mass_the_mass_is_asked_for():

@@ -146,11 +146,11 @@ def test_a_power_of_0_is_1() -> None:
 def test_a_formula_that_becomes_a_stop_with_memory_says_so() -> None:
     """Where it is made and printed; not where it has no dashpot or is written otherwise."""
     table = {"kind": "formula", "formula": "k*d + c*v", "k": 50, "c": 25, "gap": 0.1}
-    told = r"'k\*d \+ c\*v': it is the law of a Bumper, .* relaxes in 0.5 s; .* max\(k\*d"
-    with pytest.warns(InputWarning, match=told) as found:
+    message = r"'k\*d \+ c\*v': it is the law of a Bumper, .* relaxes in 0.5 s; .* max\(k\*d"
+    with pytest.warns(InputWarning, match=message) as notices:
         law = Law("k*d + c*v", gap=0.1, k=50, c=25)
-    assert [one.filename for one in found] == [__file__]
-    with pytest.warns(InputWarning, match=told):
+    assert [one.filename for one in notices] == [__file__]
+    with pytest.warns(InputWarning, match=message):
         validate(Oscillator, {"mass": 1, "isolator": {"stiffness": 1, "damping": 0}, "left": table})
     rig = Oscillator(1.0, Isolator(1.0, 0.1), law, law)  # says nothing a second time
     assert "memory=0.5 s" in str(law)

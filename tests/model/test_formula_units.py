@@ -29,12 +29,12 @@ RIG = vi.Rig(vi.Oscillator("550 kg", ISOLATOR, STOP, STOP), "0.05 g")
     ],
 )
 def test_units_follow_from_the_formula(law: vi.Law, units: dict[str, str]) -> None:
-    found = {name: one.symbol for name, one in law.quantities.items()}
+    symbols = {name: one.symbol for name, one in law.quantities.items()}
     known = {name: parameter_units(law, name) for name in units}
     assert known == units
-    assert set(units) <= set(found)
+    assert set(units) <= set(symbols)
     if "p" in dict(law.numbers):
-        assert not {"p", "q"} & set(found)
+        assert not {"p", "q"} & set(symbols)
 
 
 def parameter_units(law: vi.Law, name: str) -> str:
@@ -61,23 +61,23 @@ def test_numbers_print_with_their_units() -> None:
 def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
     name: str, span: tuple[float, float]
 ) -> None:
-    found = vi.branch(RIG, vary={name: span}, frequency="1.2 Hz")
+    branch = vi.branch(RIG, vary={name: span}, frequency="1.2 Hz")
     whose, _, number = name.rpartition(".")
     fields = ("right", "left") if whose == "stops" else (whose.removeprefix("stops."),)
-    for point in (0, found.sizes["point"] // 2, -1):
-        at = found.isel(point=point)
+    for point in (0, branch.sizes["point"] // 2, -1):
+        at = branch.isel(point=point)
         old = RIG.oscillator
         new = {field: getattr(old, field).replace(**{number: float(at[name])}) for field in fields}
         other = RIG.with_parts(old.replace(**new))
         again = vi.orbit(other, start=at["section"], frequency="1.2 Hz")
         for one in ("displacement_max", "displacement_min"):
             np.testing.assert_allclose(again[one], at[one], rtol=1e-9)
-    assert found[name].attrs["units"] == parameter(name, RIG).units
-    assert found[name].attrs["long_name"].startswith(f"number {number} in the formula of ")
+    assert branch[name].attrs["units"] == parameter(name, RIG).units
+    assert branch[name].attrs["long_name"].startswith(f"number {number} in the formula of ")
 
 
 @pytest.mark.parametrize(
-    ("name", "span", "told"),
+    ("name", "span", "message"),
     [
         (
             "isolator.k9",
@@ -92,8 +92,8 @@ def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
         ("isolator.q", ("1 kN/m", "2 kN/m"), "is a stiffness"),
     ],
 )
-def test_refused(name: str, span: tuple[float, float], told: str) -> None:
-    with pytest.raises(vi.InputError, match=told):
+def test_refused(name: str, span: tuple[float, float], message: str) -> None:
+    with pytest.raises(vi.InputError, match=message):
         vi.branch(RIG, vary={name: span}, frequency="1.2 Hz")
 
 
@@ -123,11 +123,11 @@ def named_like_built_in() -> vi.Rig:
 )
 def test_a_number_with_the_name_of_one_of_a_built_in_law_is_varied(name: str, units: str) -> None:
     rig = named_like_built_in()
-    found = parameter(name, rig)
-    assert found.units == units
+    param = parameter(name, rig)
+    assert param.units == units
     owner, _, number = name.rpartition(".")
     field = "right" if owner == "stops" else owner
-    law = getattr(found.vary(rig, 7.0).oscillator, field)
+    law = getattr(param.vary(rig, 7.0).oscillator, field)
     assert law == getattr(rig.oscillator, field).replace(**{number: 7.0})
 
 
@@ -144,11 +144,11 @@ def test_a_number_with_the_name_of_one_of_a_built_in_law_is_varied(name: str, un
 )
 def test_a_number_of_a_formula_has_no_meaning_by_its_name(name: str) -> None:
     rig = named_like_built_in()
-    found = parameter(name, rig)
+    param = parameter(name, rig)
     with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
-        found.read(rig)
+        param.read(rig)
     with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
-        found.vary(rig, 0.5)
+        param.vary(rig, 0.5)
 
 
 def test_unequal_stops_have_no_common_number() -> None:
@@ -166,7 +166,7 @@ def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
 
 
 @pytest.mark.parametrize(
-    ("formula", "numbers", "told"),
+    ("formula", "numbers", "message"),
     [
         # The 1 has no unit, so that the unit of `a` is determined.
         ("k*u/(1 + abs(u)/a)", {"k": "26 kN", "a": 0.05}, "column 1: k: '26 kN' is a force"),
@@ -175,8 +175,8 @@ def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
         ("k*u + k3*u**3", {"k": "1 N/m", "k3": "5 MN/m^2"}, "column 7: k3: .* use .* N/m³"),
     ],
 )
-def test_a_number_in_another_unit_is_refused_at_its_place(formula, numbers, told) -> None:
-    with pytest.raises(vi.InputError, match=told):
+def test_a_number_in_another_unit_is_refused_at_its_place(formula, numbers, message) -> None:
+    with pytest.raises(vi.InputError, match=message):
         vi.Law(formula, **numbers)
 
 
@@ -187,8 +187,8 @@ SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
 @pytest.mark.full
 def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
     least = sample(1e-4, 0.03)
-    found = vi.branch(SOFT, vary={"isolator.a": (least, 0.1)}, frequency="1.2 Hz")
-    assert float(found["isolator.a"].min()) == least
+    branch = vi.branch(SOFT, vary={"isolator.a": (least, 0.1)}, frequency="1.2 Hz")
+    assert float(branch["isolator.a"].min()) == least
     with pytest.raises(vi.InputError, match=r"isolator\.a at 0: isolator\.formula: column 17"):
         vi.branch(SOFT, vary={"isolator.a": (0.0, 0.1)}, frequency="1.2 Hz")
 

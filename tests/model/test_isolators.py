@@ -82,9 +82,9 @@ def test_units_follow_the_exponent():
 
 
 def test_a_friction_pendulum():
-    found = vi.FrictionIsolator.from_pendulum("1 t", "2.5 m", 0.05, 3)
+    pendulum = vi.FrictionIsolator.from_pendulum("1 t", "2.5 m", 0.05, 3)
     weight = 1000 * 9.80665
-    assert found == vi.FrictionIsolator(weight / 2.5, 3, 0.05 * weight)
+    assert pendulum == vi.FrictionIsolator(weight / 2.5, 3, 0.05 * weight)
     with pytest.raises(vi.InputError, match=r"^radius: "):
         vi.FrictionIsolator.from_pendulum(1, 0, 0.05)
 
@@ -132,10 +132,10 @@ def test_a_friction_pendulum():
 def test_bad_input_is_told_in_one_line(kind, changes, message):
     with pytest.raises(vi.InputError) as caught:
         of(kind, **changes)
-    told = str(caught.value)
-    assert told.startswith("rig.isolator")
-    assert message in told
-    assert "\n" not in told
+    text = str(caught.value)
+    assert text.startswith("rig.isolator")
+    assert message in text
+    assert "\n" not in text
 
 
 def test_exponents_that_are_whole():

@@ -14,27 +14,27 @@ from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 @pytest.mark.parametrize("isolator", ISOLATORS)
 def test_the_stiffness_of_small_motions(isolator: str) -> None:
     """K u and the rest of the law, all memory at rest, behind a small step."""
-    given = ISOLATORS[isolator]
-    stiffness, damping, law = given.engine_numbers()
+    model = ISOLATORS[isolator]
+    stiffness, damping, law = model.engine_numbers()
     u = 1e-6
     force = stiffness * u + law.cubic * u**3 + law.hysteretic * law.slope * u + law.friction
     force += 2.0 * law.sinh * math.sinh(law.sinh_rate * u)
-    assert force == pytest.approx(given.static_force(u), rel=1e-4)
-    assert (damping, law.drag) == (given.damping, given.damping_exponent)
+    assert force == pytest.approx(model.static_force(u), rel=1e-4)
+    assert (damping, law.drag) == (model.damping, model.damping_exponent)
 
 
 @pytest.mark.parametrize("isolator", ["bilinear", "bouc-wen", "bouc-wen of 2", "exponential"])
 def test_the_force_far_out(isolator: str) -> None:
     """The memory at its bound, where z′ = 0 or it yields."""
-    given = ISOLATORS[isolator]
-    stiffness, _, law = given.engine_numbers()
+    model = ISOLATORS[isolator]
+    stiffness, _, law = model.engine_numbers()
     bound = min(law.limit, math.inf)
     if math.isinf(bound):
         bound = (law.slope / (law.turning + law.knee)) ** (1.0 / law.sharpness)
     u = 20.0
     force = stiffness * u + law.hysteretic * bound
     force += 2.0 * law.sinh * math.sinh(law.sinh_rate * u)
-    assert force == pytest.approx(given.static_force(u), rel=1e-9)
+    assert force == pytest.approx(model.static_force(u), rel=1e-9)
 
 
 def test_a_linear_isolator_has_no_law() -> None:

@@ -26,10 +26,10 @@ def rig(**sides):
 
 
 def test_a_kind_chooses_the_law():
-    found = rig(right=WALL, left=BUMPER)
-    assert found.right == RigidStop(0.8, 0.009)
-    assert found.left == Bumper(510e3, 900.0, 0.0075)
-    assert Oscillator(550, ISOLATOR, WALL).right == found.right
+    oscillator = rig(right=WALL, left=BUMPER)
+    assert oscillator.right == RigidStop(0.8, 0.009)
+    assert oscillator.left == Bumper(510e3, 900.0, 0.0075)
+    assert Oscillator(550, ISOLATOR, WALL).right == oscillator.right
 
 
 def test_the_usual_kind_may_be_named():

@@ -46,7 +46,7 @@ def test_what_is_not_a_mapping_of_names_is_refused(vary):
 
 
 @pytest.mark.parametrize(
-    ("vary", "told"),
+    ("vary", "message"),
     [
         ({}, "^vary: no parameter; pass a dict of ranges by parameter, with one parameter, such"),
         ({"gap": (0, 1), "mass": (1, 2)}, "^vary: 'gap', 'mass'; pass a dict of .*, with one para"),
@@ -68,8 +68,8 @@ def test_what_is_not_a_mapping_of_names_is_refused(vary):
         ({"gap": {1, 2}}, r"^vary\['gap'\]: \{1, 2\}; pass the lowest"),
     ],
 )
-def test_ranges_that_cannot_be(vary, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_ranges_that_cannot_be(vary, message):
+    with pytest.raises(vi.InputError, match=message):
         read_ranges(vary, RIG)
 
 
@@ -90,7 +90,7 @@ def test_a_range_begins_at_0_only_if_its_parameter_may_be_0():
 
 
 @pytest.mark.parametrize(
-    ("vary", "told"),
+    ("vary", "message"),
     [
         (
             {"gap": [0.1], "mass": [1.0]},
@@ -105,8 +105,8 @@ def test_a_range_begins_at_0_only_if_its_parameter_may_be_0():
         ({"gap": [1, 2, 3, 4]}, r"^vary\['gap'\]: more than 3 items; pass at most 3"),
     ],
 )
-def test_values_that_cannot_be(vary, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_values_that_cannot_be(vary, message):
+    with pytest.raises(vi.InputError, match=message):
         read_values(vary, RIG, most=1, longest=3, but=("amplitude",), why="is the shaking")
 
 

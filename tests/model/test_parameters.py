@@ -43,12 +43,12 @@ ISOLATORS = {
 
 def having(name: str) -> vi.Oscillator:
     """A rig that has the parameter."""
-    found = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
+    oscillator = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
     stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
     for one in (RIG.right, *formula_stops(4e5, 7.5e-3).values()):
         stops = dict.fromkeys(dict(one), one) | stops
     stop = stops.get(name.rpartition(".")[2], RIG.right) if name.startswith("stops") else RIG.right
-    return found.replace(right=stop, left=stop)
+    return oscillator.replace(right=stop, left=stop)
 
 
 @pytest.mark.parametrize("name", PARAMETERS)
@@ -60,16 +60,16 @@ def test_what_is_written_is_read(name):
     moved = one.vary(start, 1.5 * here)
     assert one.read(moved) == pytest.approx(1.5 * here, rel=1e-12)
     back = one.vary(moved, one.read(start))
-    for found, value in zip(numbers(back), numbers(start), strict=True):
-        assert found == pytest.approx(value, rel=1e-12)
+    for number, value in zip(numbers(back), numbers(start), strict=True):
+        assert number == pytest.approx(value, rel=1e-12)
 
 
 def numbers(whole: vi.Rig) -> list[float]:
     rig, shaken = whole.oscillator, whole.sine
     sides = [value for stop in rig.stops.values() for value in dict(stop).values()]
     isolator = list(dict(rig.isolator).values())
-    found = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
-    return [value for value in found if isinstance(value, float)]
+    values = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
+    return [value for value in values if isinstance(value, float)]
 
 
 def test_names_and_units():
@@ -123,9 +123,9 @@ class _Frame(Model):
 
 def test_paths_walk_mappings_and_models():
     frame = _Frame(masses={"roof": 250.0}, links={"isolator": vi.Isolator(3.0, 1.0)})
-    found = {".".join(one.steps): one.value for one in walk(frame)}
-    assert found["masses.roof"] == 250.0
-    assert found["links.isolator.stiffness"] == 3.0
+    values = {".".join(one.steps): one.value for one in walk(frame)}
+    assert values["masses.roof"] == 250.0
+    assert values["links.isolator.stiffness"] == 3.0
     changes = {("masses", "roof"): "300 kg", ("links", "isolator", "stiffness"): "4 kN/m"}
     moved = put(frame, changes)
     assert moved.masses == {"roof": 300.0}
@@ -202,8 +202,8 @@ def test_ratios_are_those_of_linear_laws(name):
 @pytest.mark.parametrize("name", ["relaxation_time", "damping_ratio", "stops.right.stiffness"])
 def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
     here = parameter(name, RIG).read(vi.Rig(RIG, SHAKEN))
-    found = vi.branch(vi.Rig(RIG, SHAKEN), vary={name: (0.9 * here, 1.1 * here)})
-    last = found.isel(point=-1)
+    branch = vi.branch(vi.Rig(RIG, SHAKEN), vary={name: (0.9 * here, 1.1 * here)})
+    last = branch.isel(point=-1)
     assert float(last[name]) == pytest.approx(1.1 * here)
     direct = vi.orbit(parameter(name, RIG).vary(vi.Rig(RIG, SHAKEN), 1.1 * here), last["section"])
     assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)

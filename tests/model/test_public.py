@@ -86,7 +86,7 @@ def test_signatures_and_help_are_those_of_the_function():
 
 def test_public_functions_check_their_numbers():
     """No argument of a public function is only an `int` or a `bool`: each has a check."""
-    found = 0
+    checks = 0
     for name in vi.__all__:
         function = getattr(vi, name)
         if not inspect.isfunction(function) or not function.__module__.startswith("vibroimpact."):
@@ -97,17 +97,17 @@ def test_public_functions_check_their_numbers():
                 assert one.name in UNCHECKED, f"{name}({one.name}=)"
             if plain in {"bool", "PositiveInt", "NonNegativeInt", "MaxEvents", "Progress", "Share"}:
                 assert hasattr(function, "__wrapped__"), f"{name} is not @public"
-                found += 1
-    assert found > 60
+                checks += 1
+    assert checks > 60
 
 
 def test_every_public_function_of_the_package_is_checked():
-    found = {
+    unchecked = {
         name
         for name in vi.__all__
         if inspect.isfunction(getattr(vi, name)) and not hasattr(getattr(vi, name), "__wrapped__")
     }
-    assert found == set()
+    assert unchecked == set()
 
 
 def test_a_function_without_arguments_may_be_public():
@@ -115,13 +115,13 @@ def test_a_function_without_arguments_may_be_public():
 
 
 def test_every_figure_is_checked_or_finished():
-    found = {
+    unchecked = {
         name
         for name in figures.__all__
         if inspect.isfunction(getattr(figures, name))
         and not hasattr(getattr(figures, name), "__wrapped__")
     }
-    assert found == set()
+    assert unchecked == set()
 
 
 CASE = "B2-G1-A3"

@@ -24,9 +24,9 @@ def test_straight_lines_between_samples_and_nothing_outside():
 
 
 def test_nobody_can_change_it():
-    given = np.array([1.0, 2.0])
-    record = vi.Record(given, 0.1)
-    given[0] = 5.0
+    values = np.array([1.0, 2.0])
+    record = vi.Record(values, 0.1)
+    values[0] = 5.0
     assert record.acceleration[0] == 1.0
     with pytest.raises(ValueError, match="read-only"):
         record.acceleration[0] = 2.0

@@ -70,7 +70,7 @@ print(json.dumps({
 
 
 @pytest.fixture(scope="module")
-def found() -> dict[str, Any]:
+def answers() -> dict[str, Any]:
     command = [sys.executable, "-c", SCRIPT]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr
@@ -78,17 +78,17 @@ def found() -> dict[str, Any]:
     return result
 
 
-def test_its_motion_is_that_of_the_formula_to_the_bit(found: dict[str, Any]) -> None:
-    assert found["impacts"] == [1.0, 1.0]
-    assert found["differs"] == []
+def test_its_motion_is_that_of_the_formula_to_the_bit(answers: dict[str, Any]) -> None:
+    assert answers["impacts"] == [1.0, 1.0]
+    assert answers["differs"] == []
 
 
-def test_its_numbers_are_parameters_with_units_and_knobs(found: dict[str, Any]) -> None:
-    assert found["units"] == "N s m-3"
-    assert found["varied"] == "DragBumper(stiffness=400 kN/m, drag=0 N s/m³, gap=7.5 mm)"
-    (text,) = found["knob"]
+def test_its_numbers_are_parameters_with_units_and_knobs(answers: dict[str, Any]) -> None:
+    assert answers["units"] == "N s m-3"
+    assert answers["varied"] == "DragBumper(stiffness=400 kN/m, drag=0 N s/m³, gap=7.5 mm)"
+    (text,) = answers["knob"]
     assert text.endswith("N s/m³")
 
 
-def test_what_belongs_to_bumpers_refuses_it(found: dict[str, Any]) -> None:
-    assert "the right stop has the law 'drag'; use 'stops.right.stiffness'" in found["refused"]
+def test_what_belongs_to_bumpers_refuses_it(answers: dict[str, Any]) -> None:
+    assert "the right stop has the law 'drag'; use 'stops.right.stiffness'" in answers["refused"]

@@ -99,10 +99,10 @@ def test_a_power_bumper_of_every_way():
 def test_bad_input_is_told_in_one_line(kind, changes, message):
     with pytest.raises(vi.InputError) as caught:
         of(kind, **changes)
-    told = str(caught.value)
-    assert told.startswith("rig.left")
-    assert message in told
-    assert "\n" not in told
+    text = str(caught.value)
+    assert text.startswith("rig.left")
+    assert message in text
+    assert "\n" not in text
 
 
 def test_no_restitution_at_all_where_it_stays_finite():
@@ -154,23 +154,23 @@ PUBLISHED = {
 @pytest.mark.parametrize("relation", RELATIONS)
 @pytest.mark.parametrize("n", [1.0, 1.5])
 def test_what_each_relation_returns(relation, n):
-    for asked, told in zip((0.3, 0.5, 0.7, 0.9), PUBLISHED[relation], strict=True):
+    for asked, published in zip((0.3, 0.5, 0.7, 0.9), PUBLISHED[relation], strict=True):
         bumper = vi.PowerBumper(50.0, 0, n, restitution=asked, relation=relation)
         chi = bumper.dissipation_number
-        found = returned(lambda d, v, c=chi: 50.0 * d**n * (1.0 + c * v))
-        assert found == pytest.approx(told, abs=6e-4)
+        restitution = returned(lambda d, v, c=chi: 50.0 * d**n * (1.0 + c * v))
+        assert restitution == pytest.approx(published, abs=6e-4)
 
 
 def test_what_jankowski_returns():
     k = 50.0
-    for asked, told in zip((0.3, 0.5, 0.7, 0.9), (0.292, 0.495, 0.698, 0.900), strict=True):
+    for asked, expected in zip((0.3, 0.5, 0.7, 0.9), (0.292, 0.495, 0.698, 0.900), strict=True):
         bumper = vi.JankowskiBumper(50.0, 0, asked, 2.0)
 
         def force(d, v, xi=bumper.damping_ratio):
             damping = 2.0 * xi * math.sqrt(2.0 * k * math.sqrt(d))
             return k * d**1.5 + damping * max(v, 0.0)
 
-        assert returned(force, 2.0) == pytest.approx(told, abs=6e-4)
+        assert returned(force, 2.0) == pytest.approx(expected, abs=6e-4)
     assert vi.JankowskiBumper(50.0, 0, 1, 2.0).damping_ratio == 0.0
 
 

@@ -372,7 +372,7 @@ def test_units_in_which_a_quantity_is_written_mean_what_pint_says(quantity):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("1 m%", "has % and a unit"),
         ("1 m %", "has % and a unit"),
@@ -388,10 +388,10 @@ def test_units_in_which_a_quantity_is_written_mean_what_pint_says(quantity):
         ("1 " + "m*" * 50_000 + "m", "has 100003 characters, more than the accepted 200"),
     ],
 )
-def test_texts_that_say_nothing_sure_are_refused_at_once(text, told):
+def test_texts_that_say_nothing_sure_are_refused_at_once(text, message):
     with pytest.raises(InputError) as refused:
         to_si(text, LENGTH, "gap")
-    assert told in str(refused.value)
+    assert message in str(refused.value)
     assert len(str(refused.value)) < 300
     assert to_si("0e-999999999 m", LENGTH, "gap") == 0.0
     assert to_si("0e-9999999999999999999m", LENGTH, "gap") == 0.0

@@ -174,11 +174,11 @@ def test_all_unknown_keys_are_named_at_once():
     data = table(color="red", isolator={"stifness": 1, "damping": 1}, force="1 kg")
     with pytest.raises(InputError) as caught:
         validate(Oscillator, data, where="rig")
-    told = str(caught.value)
-    assert "rig.color: unknown key; " in told
-    assert "rig.isolator.stifness: unknown key; did you mean stiffness? Use stiffness, " in told
-    assert told.endswith("(1 more to correct)")
-    assert "\n" not in told
+    text = str(caught.value)
+    assert "rig.color: unknown key; " in text
+    assert "rig.isolator.stifness: unknown key; did you mean stiffness? Use stiffness, " in text
+    assert text.endswith("(1 more to correct)")
+    assert "\n" not in text
 
 
 def test_what_is_no_table_at_all():

@@ -82,7 +82,7 @@ OF_THE_TESTS = (*with_bumpers.CLAIMS, *jumps.CLAIMS, *maxima.CLAIMS, *motions.CL
 
 
 @pytest.fixture(scope="module")
-def found() -> dict[str, Finding]:
+def findings() -> dict[str, Finding]:
     study = PublishedStudy(threads=2)
     return {claim.key: claim.find(study) for claim in FOUND}
 
@@ -108,16 +108,16 @@ def test_sections_are_in_order():
     assert kept == sorted(kept)
 
 
-def test_verdicts(found):
-    verdicts = {key: finding.verdict for key, finding in found.items()}
+def test_verdicts(findings):
+    verdicts = {key: finding.verdict for key, finding in findings.items()}
     lost = {key for key, verdict in verdicts.items() if verdict is Verdict.NOT_REPRODUCED}
     data = {key for key, verdict in verdicts.items() if verdict is Verdict.NEEDS_DATA}
     assert lost == NOT_REPRODUCED & verdicts.keys()
     assert data == NEEDS_DATA & verdicts.keys()
 
 
-def test_numbers(found):
-    for key, finding in found.items():
+def test_numbers(findings):
+    for key, finding in findings.items():
         assert finding.holds in (True, False, None), key
         assert type(finding.holds) in (bool, type(None)), key
         assert finding.number, key
@@ -126,8 +126,8 @@ def test_numbers(found):
             assert "needed: " in finding.number, key
 
 
-def test_rounding_is_told_in_words(found):
-    for key, finding in found.items():
+def test_rounding_is_told_in_words(findings):
+    for key, finding in findings.items():
         assert not re.search(r"e-\d\d|0e\+00", finding.number), key
 
 
@@ -182,17 +182,17 @@ DECIDING = [
     ("key", "part"),
     [one for one in DECIDING if one[0] in {claim.key for claim in FOUND}],
 )
-def test_deciding_numbers(found, key, part):
-    assert part in found[key].number
+def test_deciding_numbers(findings, key, part):
+    assert part in findings[key].number
 
 
 class TestBroken:
     """A rig or a sweep that is not the paper's turns verdicts."""
 
     @staticmethod
-    def turned(found: dict[str, Finding], claims: tuple[Claim, ...]) -> set[str]:
+    def turned(findings: dict[str, Finding], claims: tuple[Claim, ...]) -> set[str]:
         study = PublishedStudy(threads=2)
-        return {c.key for c in claims if c.find(study).verdict is not found[c.key].verdict}
+        return {c.key for c in claims if c.find(study).verdict is not findings[c.key].verdict}
 
     @staticmethod
     def mutate(monkeypatch, change: Callable[[vi.Oscillator], vi.Oscillator]) -> None:
@@ -205,7 +205,7 @@ class TestBroken:
         monkeypatch.setattr(laboratory, "case", mutated)
 
     @FULL_ONLY
-    def test_bumpers_ten_times_softer(self, monkeypatch, found):
+    def test_bumpers_ten_times_softer(self, monkeypatch, findings):
         def soft(rig: vi.Oscillator) -> vi.Oscillator:
             if rig.right is None:
                 return rig
@@ -215,23 +215,23 @@ class TestBroken:
             return rig.replace(right=bumper, left=bumper)
 
         self.mutate(monkeypatch, soft)
-        turned = self.turned(found, LINEAR)
+        turned = self.turned(findings, LINEAR)
         assert len(turned) >= 30
         assert {"tests-by-scenario", "s4-left-hystereses", "s3-two-motions"} <= turned
         assert not turned & NEEDS_DATA
 
     @FULL_ONLY
-    def test_isolator_damped_a_third_as_much(self, monkeypatch, found):
+    def test_isolator_damped_a_third_as_much(self, monkeypatch, findings):
         def loose(rig: vi.Oscillator) -> vi.Oscillator:
             return rig.replace(isolator=rig.isolator.replace(damping=rig.isolator.damping / 3.0))
 
         self.mutate(monkeypatch, loose)
-        turned = self.turned(found, OF_THE_TESTS)
+        turned = self.turned(findings, OF_THE_TESTS)
         assert len(turned) >= 10
         assert {"acceleration-with-acceleration-forward", "s2-primary-only"} & turned
 
     @FULL_ONLY
-    def test_one_gap_wider_the_other_narrower(self, monkeypatch, found):
+    def test_one_gap_wider_the_other_narrower(self, monkeypatch, findings):
         def shifted(rig: vi.Oscillator) -> vi.Oscillator:
             if rig.right is None:
                 return rig
@@ -242,12 +242,12 @@ class TestBroken:
             )
 
         self.mutate(monkeypatch, shifted)
-        turned = self.turned(found, (*named.CLAIMS, *left.CLAIMS, *motions.CLAIMS))
+        turned = self.turned(findings, (*named.CLAIMS, *left.CLAIMS, *motions.CLAIMS))
         assert len(turned) >= 8
         assert {"s4-two-motions", "s3-many-harmonics"} <= turned
 
     @pytest.mark.full
-    def test_directions_mixed_up(self, monkeypatch, found):
+    def test_directions_mixed_up(self, monkeypatch, findings):
         sweeps = study_module.sweeps
 
         def swapped(*rest, **named) -> xr.Dataset:
@@ -255,7 +255,7 @@ class TestBroken:
             return data.assign_coords(direction=data["direction"].values[::-1].copy())
 
         monkeypatch.setattr(study_module, "sweeps", swapped)
-        turned = self.turned(found, OF_THE_TESTS)
+        turned = self.turned(findings, OF_THE_TESTS)
         assert {"hysteresis-of-the-example", "upward-jump-with-gap"} <= turned
 
     def test_a_feature_that_is_absent_does_not_hold(self):

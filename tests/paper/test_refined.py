@@ -51,20 +51,20 @@ def test_each_isolator_softens_as_the_equivalent_stiffness_does(name):
 
 def misses(isolator) -> np.ndarray:
     """Frequencies and heights of the largest free flight, over those of the linear isolators."""
-    found = []
+    errors = []
     for name, a in laboratory.ACCELERATIONS.items():
         shaken = vi.Harmonic(a, 1.0)
         rig = vi.Oscillator(laboratory.MASS, isolator)
         wanted = laboratory.case(f"B1-Ginf-{name}").oscillator
         place = wanted.natural_frequency * math.sqrt(1.0 - 2.0 * laboratory.DAMPING_RATIO**2)
-        found.append(resonance(vi.Rig(rig, shaken)) / place - 1.0)
+        errors.append(resonance(vi.Rig(rig, shaken)) / place - 1.0)
         pairs = zip(
             largest_flight(vi.Rig(rig, shaken)),
             reference_excursions(vi.Rig(wanted, shaken)),
             strict=True,
         )
-        found += [one / other - 1.0 for one, other in pairs]
-    return np.array(found)
+        errors += [one / other - 1.0 for one, other in pairs]
+    return np.array(errors)
 
 
 @FULL_ONLY
@@ -81,10 +81,10 @@ def test_the_parameters_are_those_of_a_fit(name):
         except vi.InputError:
             return np.full(9, 10.0)
 
-    found = least_squares(residuals, start + 0.1, diff_step=1e-3, x_scale=0.3, max_nfev=30)
+    fit = least_squares(residuals, start + 0.1, diff_step=1e-3, x_scale=0.3, max_nfev=30)
     mine = np.sqrt(np.mean(residuals(start) ** 2))
     assert mine < 0.031
-    assert mine < 1.1 * np.sqrt(np.mean(found.fun**2))
+    assert mine < 1.1 * np.sqrt(np.mean(fit.fun**2))
 
 
 FITTED = {

@@ -47,7 +47,7 @@ class Page(HTMLParser):
         return " ".join("".join(self.words).split())
 
     def attributes(self, tag: str, name: str) -> list[str]:
-        return [found[name] or "" for kind, found in self.tags if kind == tag and name in found]
+        return [attrs[name] or "" for kind, attrs in self.tags if kind == tag and name in attrs]
 
 
 def draw(study: PublishedStudy) -> Figure:

@@ -102,9 +102,9 @@ def tame_record(rig: vi.Oscillator, record: vi.Record, start: vi.State):
 @examples(60)
 @given(recorded())
 def test_the_work_of_a_record_is_dissipated_or_stored(
-    given: tuple[vi.Oscillator, vi.Record, vi.State],
+    case: tuple[vi.Oscillator, vi.Record, vi.State],
 ) -> None:
-    rig, record, start = given
+    rig, record, start = case
     data = through(rig, record, start)
     walk = list(lines(rig, record, data))
     assert unbalanced(rig, walk) < 1e-11
@@ -122,10 +122,10 @@ GRAZING = (
 @given(recorded(), st.integers(0), st.integers(1, 5))
 @example(GRAZING, 0, 2)
 def test_a_record_may_be_cut_anywhere(
-    given: tuple[vi.Oscillator, vi.Record, vi.State], where: int, parts: int
+    case: tuple[vi.Oscillator, vi.Record, vi.State], where: int, parts: int
 ) -> None:
     """At a sample, or within a line: there the record has samples once it is made finer."""
-    rig, record, start = given
+    rig, record, start = case
     whole, rounding = tame_record(rig, record, start)
     count = (len(record.acceleration) - 1) * parts
     assume(count > 1)
@@ -143,8 +143,8 @@ def test_a_record_may_be_cut_anywhere(
 
 @examples(40)
 @given(recorded())
-def test_the_mirrored_record(given: tuple[vi.Oscillator, vi.Record, vi.State]) -> None:
-    rig, record, start = given
+def test_the_mirrored_record(case: tuple[vi.Oscillator, vi.Record, vi.State]) -> None:
+    rig, record, start = case
     data, rounding = tame_record(rig, record, start)
     turned = vi.Record(-record.acceleration, record.step)
     back = vi.State(-start.displacement, -start.velocity)

@@ -67,20 +67,18 @@ def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     )
     if outcome != Status.DONE:
         return Status(outcome), []
-    found = []
+    problems = []
     if not (np.isfinite(out[: record_layout.CLEARANCE]).all() and np.isfinite(state).all()):
-        found.append("not finite")
-    u, (depth_r, depth_l) = (
-        out[record_layout.DISPLACEMENT],
-        out[record_layout.DEFORMATION :][: record_layout.STOPS],
-    )
+        problems.append("not finite")
+    u = out[record_layout.DISPLACEMENT]
+    depth_r, depth_l = out[record_layout.DEFORMATION :][: record_layout.STOPS]
     scale = np.abs(u).max()
     for bumper, inside in ((right, u - depth_r), (left, -depth_l - u)):
         if bumper and (inside - bumper[2]).max() > 1e-13 * max(scale, bumper[2]):
-            found.append(f"penetration {(inside - bumper[2]).max() / scale:.1e}")
+            problems.append(f"penetration {(inside - bumper[2]).max() / scale:.1e}")
     if min(depth_r.min(), depth_l.min()) < -1e-13 * scale:
-        found.append("a bumper was pulled")
-    return Status(outcome), found
+        problems.append("a bumper was pulled")
+    return Status(outcome), problems
 
 
 def survey(count: int, seed: int) -> tuple[Counter[str], list[str], float]:
@@ -93,13 +91,13 @@ def survey(count: int, seed: int) -> tuple[Counter[str], list[str], float]:
     for i in range(count):
         case = random_rig(rng)
         begin = time.perf_counter()
-        status, found = faults(case)
+        status, problems = faults(case)
         took = time.perf_counter() - begin
         if took > longest:
             longest = took
             print(f"longest so far: {took:.3f} s, rig {i} {case}") if __name__ == "__main__" else 0
         outcomes[status.name] += 1
-        wrong += [f"rig {i} of seed {seed}: {fault}; {case}" for fault in found]
+        wrong += [f"rig {i} of seed {seed}: {fault}; {case}" for fault in problems]
     return outcomes, wrong, longest
 
 

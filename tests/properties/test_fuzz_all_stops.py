@@ -80,7 +80,7 @@ def faults(
     if data["status"] != 0:
         return data.attrs["message"], []
     names = ("displacement", "velocity", "acceleration", "final_state")
-    found = [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
+    problems = [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
     u = data["displacement"].values
     # In contact the displacement is a bumper's gap and its deformation together.
     gaps = [abs(stop.gap) for stop in rig.stops.values()]
@@ -92,16 +92,16 @@ def faults(
         face = data["deformation"].sel(stop=name).values
         inside = float((sign * u - face - stop.gap).max())
         if inside > 1e-15 * scale:
-            found.append(f"penetration of the {name} stop by {inside / scale:.1e}")
+            problems.append(f"penetration of the {name} stop by {inside / scale:.1e}")
         if face.min() < -1e-13 * scale:
-            found.append(f"the {name} bumper was pulled")
+            problems.append(f"the {name} bumper was pulled")
         if isinstance(stop, vi.RigidStop) and (face != 0.0).any():
-            found.append(f"the rigid {name} stop was pressed in")
+            problems.append(f"the rigid {name} stop was pressed in")
     impacts = data["event_contact"].values == 2
     towards = np.where(data["event_stop"].values == "right", 1, -1) * data["event_velocity"].values
     if (towards[impacts] < 0.0).any():
-        found.append("an impact from behind")
-    return "done", found
+        problems.append("an impact from behind")
+    return "done", problems
 
 
 def survey(count: int, seed: int, shakings: bool = False) -> tuple[Counter[str], list[str]]:
@@ -114,16 +114,16 @@ def survey(count: int, seed: int, shakings: bool = False) -> tuple[Counter[str],
         if shakings:
             rig, shaken = any_shaking(rng, rig, shaken)
         begin = time.perf_counter()
-        status, found = faults(rig, shaken)
+        status, problems = faults(rig, shaken)
         took = time.perf_counter() - begin
         if took > SLOWEST:  # the first of its flow may compile
             begin = time.perf_counter()
             faults(rig, shaken)
             took = time.perf_counter() - begin
         if took > SLOWEST:
-            found.append(f"{took:.1f} s")
+            problems.append(f"{took:.1f} s")
         outcomes[status.split(":")[0]] += 1
-        wrong += [f"rig {i} of seed {seed}: {fault}; {rig!r}, {shaken!r}" for fault in found]
+        wrong += [f"rig {i} of seed {seed}: {fault}; {rig!r}, {shaken!r}" for fault in problems]
     return outcomes, wrong
 
 

@@ -53,15 +53,15 @@ def survey(count: int, seed: int, first: int = 0, tell: bool = False) -> tuple[C
     begin = time.monotonic()
     for i in range(first, first + count):
         faulthandler.dump_traceback_later(LONGEST, exit=True)
-        status, found = looked_at(seed, i)
+        status, problems = looked_at(seed, i)
         faulthandler.cancel_dump_traceback_later()
         outcomes[status] += 1
         if status == GIVEN_UP and tell:
             print(f"assembly {i} of seed {seed} {status}", flush=True)
-        found = [f"assembly {i} of seed {seed}: {one}" for one in found]
-        wrong += found
+        problems = [f"assembly {i} of seed {seed}: {one}" for one in problems]
+        wrong += problems
         if tell:
-            for one in found:
+            for one in problems:
                 print(one, flush=True)
             if (i + 1 - first) % 100 == 0:
                 rate = 60.0 * (i + 1 - first) / (time.monotonic() - begin)
@@ -80,16 +80,16 @@ def drawn(seed: int, which: int) -> tuple[np.random.Generator, vi.Assembly, vi.H
 
 def looked_at(seed: int, which: int) -> tuple[str, list[str]]:
     """The outcome of a motion, and what is wrong with it."""
-    found = drawn(seed, which)
-    if isinstance(found, str):
-        return found, []
-    rng, assembly, shaken = found
+    draw = drawn(seed, which)
+    if isinstance(draw, str):
+        return draw, []
+    rng, assembly, shaken = draw
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
         data = followed(assembly, shaken, CYCLES, samples=8)
-        told = data.attrs["message"]
-        status = GIVEN_UP if "max_events" in told else told.split(":")[0]
+        message = data.attrs["message"]
+        status = GIVEN_UP if "max_events" in message else message.split(":")[0]
         wrong = faults(assembly, data, status)
         if not wrong and status == "done":
             wrong = unlike(rng, assembly, shaken)
@@ -139,10 +139,10 @@ def pushing(assembly: vi.Assembly, data: xr.Dataset) -> float:
 
 def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
     """Energy that is created or missing."""
-    found = vi.totals(data)
-    supplied = float(found["total_supplied"])
-    links, stops = (found[f"total_{one}"] for one in ("links", "stops"))
-    damped = float(found["total_damping"]) if "total_damping" in found else 0.0
+    totals = vi.totals(data)
+    supplied = float(totals["total_supplied"])
+    links, stops = (totals[f"total_{one}"] for one in ("links", "stops"))
+    damped = float(totals["total_damping"]) if "total_damping" in totals else 0.0
     change = stored(assembly, data["final_state"]) - stored(assembly, data["initial_state"])
     lost = float(links.sum()) + float(stops.sum()) + damped
     through = abs(supplied) + float(abs(links).sum()) + float(abs(stops).sum()) + abs(change)
@@ -155,7 +155,7 @@ def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
         for name, one in zip(kind.values.size * [kind.name], kind.values, strict=True)
         if one < -EXACT * through - ROUNDING * kinetic - nothing
     ]
-    held = float(found["total_stored"])
+    held = float(totals["total_stored"])
     if abs(held - change) > EXACT * through + ROUNDING * kinetic + nothing:
         wrong.append(f"{held:g} J are stored, not {change:g} J")
     # The losses of several yielding links are not known one by one.
@@ -252,9 +252,9 @@ def test_motions_that_were_found_to_fail(
     mass: float, law: Any, shaken: vi.Harmonic, stops: Any
 ) -> None:
     rigs = one_mass(mass, law, shaken, **stops)
-    expected, found = (vi.simulate(rig, 2, samples=0) for rig in rigs)
-    assert found.attrs["message"] == "done"
-    ends = [one["final_state"].values[:2] for one in (expected, found)]
+    expected, motion = (vi.simulate(rig, 2, samples=0) for rig in rigs)
+    assert motion.attrs["message"] == "done"
+    ends = [one["final_state"].values[:2] for one in (expected, motion)]
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
@@ -341,7 +341,7 @@ def test_random_assemblies_that_were_found_to_fail(seed: int, which: int) -> Non
 
 
 if __name__ == "__main__":
-    given = [int(word) for word in sys.argv[1:]]
-    totals, bad = survey(given[0], *(given[1:] or [1]), tell=True)
+    numbers = [int(word) for word in sys.argv[1:]]
+    totals, bad = survey(numbers[0], *(numbers[1:] or [1]), tell=True)
     print(dict(totals))
     print("\n".join(bad) or "no faults")

@@ -40,10 +40,10 @@ def survey(count: int, seed: int, shakings: bool = False) -> tuple[Counter[str],
         if shakings:
             shaken = any_shaking(rng, shaken)
         faulthandler.dump_traceback_later(LONGEST, exit=True)
-        status, found = looked_at(rig, shaken)
+        status, problems = looked_at(rig, shaken)
         faulthandler.cancel_dump_traceback_later()
         outcomes[status] += 1
-        wrong += [f"rig {i} of seed {seed}: {one}; {rig!r}, {shaken!r}" for one in found]
+        wrong += [f"rig {i} of seed {seed}: {one}; {rig!r}, {shaken!r}" for one in problems]
     return outcomes, wrong
 
 
@@ -68,9 +68,9 @@ def faults(rig: vi.Oscillator, data, status: str) -> list[str]:
     wrong += [f"the {name} stop was pulled" for name in data["stop"].values[pulled]]
     if wrong or status != "done":
         return wrong
-    found = vi.totals(data)
+    totals = vi.totals(data)
     supplied, isolator, bumpers = (
-        float(found[f"total_{one}"]) for one in ("supplied", "isolator", "bumpers")
+        float(totals[f"total_{one}"]) for one in ("supplied", "isolator", "bumpers")
     )
     change = stored(rig, data, -1) - stored(rig, data, 0)
     through = abs(supplied) + abs(isolator) + abs(bumpers) + abs(change)

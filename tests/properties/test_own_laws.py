@@ -66,10 +66,10 @@ def survey(count: int, seed: int) -> tuple[int, list[str]]:
     done, wrong = 0, []
     for i in range(count):
         rig, shaken = random_own_rig(rng)
-        status, found = looked_at(rig, shaken if i % 4 else any_shaking(rng, shaken))
+        status, problems = looked_at(rig, shaken if i % 4 else any_shaking(rng, shaken))
         # A sine softens: a motion may go where it no longer pushes back, and ends there.
         done += status == "done" or "in which the softening isolator" in status
-        wrong += [f"rig {i} of seed {seed}: {one}; {rig!r}, {shaken!r}" for one in found]
+        wrong += [f"rig {i} of seed {seed}: {one}; {rig!r}, {shaken!r}" for one in problems]
     return done, wrong
 
 

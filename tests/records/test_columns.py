@@ -176,8 +176,8 @@ def test_times_that_are_rounded_or_jitter(tmp_path):
         record = vi.Record.read(written(tmp_path, rows), unit="m/s^2")
         assert record.step == pytest.approx(step, rel=off / (299 * step) * 2)
         np.testing.assert_array_equal(record.acceleration, values)
-        (told,) = record.about.notes
-        assert told.startswith("its times are uneven by up to 0.000")
+        (note,) = record.about.notes
+        assert note.startswith("its times are uneven by up to 0.000")
         stated = vi.Record.read(written(tmp_path, rows), unit="m/s^2", step=step)
         assert stated.step == step
 

@@ -62,9 +62,9 @@ def test_two_stations_are_told_apart(tmp_path):
 
 def test_an_overlap_is_no_gap(tmp_path):
     values = np.sin(0.1 * np.arange(500))
-    for at, told in ((3.0, "has overlapping parts that differ"), (7.0, "has gaps")):
+    for at, message in ((3.0, "has overlapping parts that differ"), (7.0, "has gaps")):
         path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("AAA", "HNE", at, -1.0 - values))
-        with pytest.raises(vi.InputError, match=told):
+        with pytest.raises(vi.InputError, match=message):
             vi.Record.read(path, unit="m/s^2")
 
 

@@ -257,7 +257,7 @@ def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
     """Cut off, a sign changed, signs left out or put in, a line left out or twice."""
     rng = random.Random(name)
     path = tmp_path / "record.dat"
-    told: list[str] = []
+    messages: list[str] = []
     for _ in range(sample(3000, 300)):
         lines = LAYOUTS[name]()
         text = "\n".join(lines)
@@ -278,11 +278,11 @@ def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
         try:
             record = vi.Record.read(path)
         except vi.InputError as error:
-            told.append(str(error))
+            messages.append(str(error))
         else:
             assert np.isfinite(record.acceleration).all()
-    assert len(told) > 100
-    assert not any("\n" in line for line in told)
+    assert len(messages) > 100
+    assert not any("\n" in line for line in messages)
 
 
 def test_a_text_that_begins_with_blanks_is_no_miniseed(written):

@@ -96,13 +96,13 @@ OF_TEXT = {form.name for form in FORMATS} - {"miniSEED", "SAC", "columns"}
 
 
 def test_each_file_is_of_one_format(written):
-    found = set()
+    formats = set()
     for name, layout in SAMPLES.items():
         file = File(written(layout()))
         forms = [form.name for form in FORMATS[:-1] if form.recognises(file)]
         assert len(forms) == 1, name
-        found |= set(forms)
-    assert found == OF_TEXT
+        formats |= set(forms)
+    assert formats == OF_TEXT
 
 
 CONTRADICTED = {
@@ -283,7 +283,7 @@ def test_a_truncated_file_is_refused(written, name):
 def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
     rng = random.Random(name)
     path = tmp_path / "record.dat"
-    told = []
+    messages = []
     for _ in range(sample(1500, 150)):
         text = "\n".join(SAMPLES[name]())
         at, length = rng.randrange(len(text)), rng.randint(0, 12)
@@ -292,11 +292,11 @@ def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
         try:
             record = vi.Record.read(path, 1, step=rng.choice([None, 0.004]))
         except vi.InputError as error:
-            told.append(str(error))
+            messages.append(str(error))
         else:
             assert np.isfinite(record.acceleration).all()
-    assert len(told) > 20
-    assert not any("\n" in line for line in told)
+    assert len(messages) > 20
+    assert not any("\n" in line for line in messages)
 
 
 @pytest.mark.parametrize("name", ["knet_csv", "cwb", "nsmn", "unam"])

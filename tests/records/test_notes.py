@@ -27,12 +27,12 @@ def noted(path: str, **said) -> tuple[vi.Record, str]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         record = vi.Record.read(path, **said)
-    told = "; ".join(record.about.notes)
-    expected = [f"record {path!r}: {told}"] if told else []
+    notes = "; ".join(record.about.notes)
+    expected = [f"record {path!r}: {notes}"] if notes else []
     assert [str(one.message) for one in caught] == expected
     assert all(one.category is vi.InputWarning for one in caught)
     assert all(one.filename == __file__ for one in caught)
-    return record, told
+    return record, notes
 
 
 @pytest.mark.parametrize(
@@ -55,17 +55,17 @@ def test_the_unit_of_an_at2_file_is_the_one_of_its_header(tmp_path, stated, size
             vi.Record.read(path)
         assert "\n" not in str(error.value)
         return
-    record, told = noted(path)
+    record, notes = noted(path)
     np.testing.assert_allclose(record.acceleration, size * np.array(VALUES), rtol=1e-14)
-    assert told == ""
+    assert notes == ""
 
 
 def test_the_unit_of_an_at2_file_that_states_none_is_asked_for(tmp_path):
     path = written(tmp_path, "\n".join(peer(stated="Acceleration")) + "\n")
     with pytest.raises(vi.InputError, match=r'^unit: missing, .* unit="g" \(--unit g\)$'):
         vi.Record.read(path)
-    record, told = noted(path, unit="g")
-    assert (record.peak, told) == (pytest.approx(3.5 * GRAVITY, rel=1e-14), "")
+    record, notes = noted(path, unit="g")
+    assert (record.peak, notes) == (pytest.approx(3.5 * GRAVITY, rel=1e-14), "")
 
 
 @pytest.mark.parametrize(
@@ -81,10 +81,10 @@ def test_the_unit_of_an_at2_file_that_states_none_is_asked_for(tmp_path):
 )
 def test_units_of_columns_and_of_their_times(tmp_path, head, scale):
     rows = [f"{i * scale / 100!r},{a!r}" for i, a in enumerate((100.0 * SWAY).tolist())]
-    record, told = noted(written(tmp_path, "\n".join([head, *rows]) + "\n"))
+    record, notes = noted(written(tmp_path, "\n".join([head, *rows]) + "\n"))
     assert record.step == pytest.approx(0.01, rel=1e-12)
     np.testing.assert_allclose(record.acceleration, SWAY, rtol=1e-12)
-    assert told == ""
+    assert notes == ""
 
 
 def test_times_in_a_unit_that_is_not_known(tmp_path):
@@ -98,14 +98,14 @@ def test_times_in_a_unit_that_is_not_known(tmp_path):
 def test_a_unit_after_a_single_column(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
     for head in ("Acceleration in g\n", "# units: g\n", "made up\nAcc (g)\n"):
-        record, told = noted(written(tmp_path, head + "# dt: 10 ms\n" + rows))
-        assert (record.about.unit, told) == ("g", "")
+        record, notes = noted(written(tmp_path, head + "# dt: 10 ms\n" + rows))
+        assert (record.about.unit, notes) == ("g", "")
     with pytest.raises(vi.InputError, match=r'^unit: missing, .* unit="g" \(--unit g\)$'):
         vi.Record.read(written(tmp_path, "# dt: 10 ms\n" + rows))
 
 
 @pytest.mark.parametrize(
-    ("factor", "step", "said", "told"),
+    ("factor", "step", "said", "doubt"),
     [
         (
             1000.0,
@@ -123,52 +123,53 @@ def test_a_unit_after_a_single_column(tmp_path):
         (1.0, 1e-4, {"unit": "m/s^2"}, ""),
     ],
 )
-def test_sizes_and_times_beyond_those_of_records_are_doubted(tmp_path, factor, step, said, told):
+def test_sizes_and_times_beyond_those_of_records_are_doubted(tmp_path, factor, step, said, doubt):
     rows = "".join(f"{a!r}\n" for a in (factor * SWAY).tolist())
-    _, found = noted(written(tmp_path, rows), step=step, **said)
-    assert told in found
-    assert bool(told) == bool(found)
+    _, notes = noted(written(tmp_path, rows), step=step, **said)
+    assert doubt in notes
+    assert bool(doubt) == bool(notes)
 
 
 def test_a_file_that_was_cut_within_its_last_number(tmp_path):
     quiet = [f"{1e-6 * a:14.7E}" for a in SWAY]
     whole = [*peer(f"NPTS= {len(quiet)}, DT= 0.01 SEC")[:4], *quiet]
     text = "\n".join(whole)
-    _, told = noted(written(tmp_path, text), unit="m/s^2")  # the last number is as the others
-    assert "cut" not in told
+    _, notes = noted(written(tmp_path, text), unit="m/s^2")  # the last number is as the others
+    assert "cut" not in notes
     last = "-3.11"
     cut = "\n".join([*whole[:-1], last])
-    record, told = noted(written(tmp_path, cut))
+    record, notes = noted(written(tmp_path, cut))
     assert record.peak == pytest.approx(3.11 * GRAVITY)
     assert (
-        "the file ends with '-3.11' and without a line break: is it incomplete within a num" in told
+        "the file ends with '-3.11' and without a line break: is it incomplete within a num"
+        in notes
     )
-    assert "the last value, -3.11, is far from the one before it" in told
-    _, told = noted(written(tmp_path, cut + "\n"))  # mended by an editor
-    assert "line break" not in told
-    assert "the last value, -3.11, is far from the one before it" in told
+    assert "the last value, -3.11, is far from the one before it" in notes
+    _, notes = noted(written(tmp_path, cut + "\n"))  # mended by an editor
+    assert "line break" not in notes
+    assert "the last value, -3.11, is far from the one before it" in notes
 
 
 @pytest.mark.parametrize("cut", [1, 2, 3, 4, 5])
 def test_each_cut_of_the_last_number_is_doubted_or_refused(tmp_path, cut):
     rows = "\n".join(f"{0.01 * i:.2f},{a:.6f}" for i, a in enumerate(SWAY))
     assert noted(written(tmp_path, "t,a (m/s^2)\n" + rows))[1] == ""
-    _, told = noted(written(tmp_path, "t,a (m/s^2)\n" + rows[:-cut]))
-    assert "without a line break" in told
+    _, notes = noted(written(tmp_path, "t,a (m/s^2)\n" + rows[:-cut]))
+    assert "without a line break" in notes
 
 
 def test_a_record_that_ends_in_motion_is_not_doubted(tmp_path):
     rng = np.random.default_rng(1)
     for values in (rng.normal(size=400), np.sin(0.4 * np.arange(300)), np.ones(50)):
         rows = "".join(f"{a!r}\n" for a in values.tolist())
-        _, told = noted(written(tmp_path, rows), step=0.01, unit="m/s^2")
-        assert "last value" not in told
+        _, notes = noted(written(tmp_path, rows), step=0.01, unit="m/s^2")
+        assert "last value" not in notes
 
 
 def test_datasets_keep_what_was_noted(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
-    record, told = noted(written(tmp_path, "# dt = 20 ms\n" + rows), step=0.01, unit="m/s^2")
-    assert told == "the step 10 ms replaces the step in the file, 0.02 s"
+    record, notes = noted(written(tmp_path, "# dt = 20 ms\n" + rows), step=0.01, unit="m/s^2")
+    assert notes == "the step 10 ms replaces the step in the file, 0.02 s"
     motion = vi.simulate(vi.Rig(RIG, record), tail=1.0)
     demands = vi.demands(RIG, {"quake": record, "made": vi.Record(SWAY, 0.01)})
     made = {
@@ -180,11 +181,11 @@ def test_datasets_keep_what_was_noted(tmp_path):
         "required_gap": vi.required_gap(RIG, records=record),
     }
     assert {name: data.attrs.get("notes") for name, data in made.items()} == dict.fromkeys(
-        made, told
-    ) | {"required_gap": f"quake.csv: {told}"}
-    assert demands.attrs["notes"] == f"quake: {told}"
+        made, notes
+    ) | {"required_gap": f"quake.csv: {notes}"}
+    assert demands.attrs["notes"] == f"quake: {notes}"
     vi.save(motion, tmp_path / "motion.nc")
-    assert vi.load(tmp_path / "motion.nc").attrs["notes"] == told
+    assert vi.load(tmp_path / "motion.nc").attrs["notes"] == notes
     assert "notes" not in vi.seismic_response(vi.Rig(RIG, vi.Record(SWAY, 0.01))).attrs
 
 
@@ -213,16 +214,16 @@ def test_two_units_that_differ_are_refused(tmp_path, head, said):
     "head", ["t (s),a (gal)\ns,cm/s^2\n", "units: cm/s2\nt (s),a (CM/SEC/SEC)\n"]
 )
 def test_two_spellings_of_one_unit_are_no_conflict(tmp_path, head):
-    record, told = noted(written(tmp_path, head + ROWS))
+    record, notes = noted(written(tmp_path, head + ROWS))
     assert record.peak == pytest.approx(0.03)
-    assert "unit" not in told
-    assert "name" not in told
+    assert "unit" not in notes
+    assert "name" not in notes
 
 
 def test_the_ending_of_a_name_yields_to_a_line_of_units_and_is_noted(tmp_path):
-    record, told = noted(written(tmp_path, "time,acc_g\ns,cm/s^2\n" + ROWS))
+    record, notes = noted(written(tmp_path, "time,acc_g\ns,cm/s^2\n" + ROWS))
     assert record.peak == pytest.approx(0.03)
-    assert "read in cm/s^2, although the name of the column states g" in told
+    assert "read in cm/s^2, although the name of the column states g" in notes
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such names of files")

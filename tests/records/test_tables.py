@@ -78,9 +78,11 @@ def test_the_arrangement_of_numbers_without_names_is_asked_for(tmp_path):
     head = "dt = 0.005 s, units: gal\n"
     with pytest.raises(vi.InputError) as error:
         vi.Record.read(written(tmp_path, head + lines(A, 8)))
-    told = str(error.value)
-    assert "its rows of 8 numbers have neither names nor times: are they 8 components, or" in told
-    assert told.endswith("such as 'NPTS = 400', or name the columns")
+    message = str(error.value)
+    assert (
+        "its rows of 8 numbers have neither names nor times: are they 8 components, or" in message
+    )
+    assert message.endswith("such as 'NPTS = 400', or name the columns")
     check(written(tmp_path, "NPTS = 400, " + head + lines(A, 8)))
     eight = lines(np.column_stack([A] * 8).ravel(), 8)
     check(written(tmp_path, "400 samples\n" + head + eight), component=3)
@@ -186,7 +188,7 @@ def test_a_unit_that_is_stated_nowhere_is_asked_for(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("head", "told"),
+    ("head", "message"),
     [
         ("NPTS: 500", "line 1: the file announces 500 values, but 400 follow"),
         ("fs = 100 Hz", "'fs = 100 Hz', a step of 0.01 s, but the times have steps of 0.005 s"),
@@ -200,11 +202,11 @@ def test_a_unit_that_is_stated_nowhere_is_asked_for(tmp_path):
         ("units: g", "states two units, 'gal' and 'g'"),
     ],
 )
-def test_a_statement_that_the_values_contradict_is_refused_with_both(tmp_path, head, told):
+def test_a_statement_that_the_values_contradict_is_refused_with_both(tmp_path, head, message):
     path = written(tmp_path, f"# {head}\ntime (s),acc (gal)\n" + columns(TIME, A))
     with pytest.raises(vi.InputError) as error:
         vi.Record.read(path)
-    assert told in str(error.value)
+    assert message in str(error.value)
     assert "\n" not in str(error.value)
 
 

@@ -156,8 +156,8 @@ class _Run:
         ]
         self.shaking = Sines([shaken.amplitude], shaken.frequency, shaken.phase)
         self.t, n = mpf(0), len(self.names)
-        given = (start.displacement, start.velocity) if start is not None else ({}, {})
-        self.u, self.v = ([mpf(one.get(name, 0.0)) for name in self.names] for one in given)
+        initial = (start.displacement, start.velocity) if start is not None else ({}, {})
+        self.u, self.v = ([mpf(one.get(name, 0.0)) for name in self.names] for one in initial)
         for link in self.links:
             link.moves(-link.ends.apart(self.v))
             if link.turns and not link.way:
@@ -204,8 +204,8 @@ class _Run:
             for name, jet in zip(self.names, self.jets_u, strict=True):
                 self.motion.peaks[name] = max(self.motion.peaks[name], _largest(series(jet), at))
             for stop, jet in pressing:
-                found = _largest(series(jet), at)
-                self.motion.forces[stop.name] = max(self.motion.forces[stop.name], found)
+                largest = _largest(series(jet), at)
+                self.motion.forces[stop.name] = max(self.motion.forces[stop.name], largest)
         self.step *= factor
         if at > 0:
             self.known, self.changes_here = {}, 0
@@ -419,7 +419,7 @@ def _largest(series: list[int], at: mpf) -> mpf:
     places = [at * k / (_PLACES - 1) for k in range(_PLACES)]
     plain = np.array([float(one) for one in slope])
     signs = np.sign(np.polynomial.polynomial.polyval(np.array(places, float), plain))
-    found = [polynomial_value(terms, mpf(0)), polynomial_value(terms, at)]
+    extremes = [polynomial_value(terms, mpf(0)), polynomial_value(terms, at)]
     for k in np.flatnonzero(signs[1:] * signs[:-1] <= 0):
         low, high = places[k], places[k + 1]
         rising = polynomial_value(slope, low) > 0
@@ -429,5 +429,5 @@ def _largest(series: list[int], at: mpf) -> mpf:
                 low = middle
             else:
                 high = middle
-        found.append(polynomial_value(terms, low))
-    return max(map(abs, found))
+        extremes.append(polynomial_value(terms, low))
+    return max(map(abs, extremes))

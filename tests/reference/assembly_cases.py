@@ -29,8 +29,8 @@ def case(
 ) -> Case:
     """With velocities at the start, so that links know which way they go."""
     parts = {
-        part: {name: vi.Link(*one) for name, one in given.items()}
-        for part, given in (("links", links), ("stops", stops))
+        part: {name: vi.Link(*one) for name, one in table.items()}
+        for part, table in (("links", links), ("stops", stops))
     }
     shaken = vi.Harmonic(amplitude, frequency, 0.3)
     return Case(vi.Rig(vi.Assembly(masses, **parts), shaken), vi.State(velocity=speeds))

@@ -136,12 +136,12 @@ def orbits(one: Oscillator) -> list[Orbit]:
     share = both * mpf(one.gap) / (swing * mp.hypot(one.omega, both))
     if abs(share) > 1:
         return []
-    found = []
+    solutions = []
     for psi in (middle + mp.acos(share), middle - mp.acos(share)):
         q = mpf(one.gap) - swing * mp.cos(psi)
         phase = psi + mp.pi / 2 - mp.arg(one.turning)
-        found.append(Orbit(one, phase, kappa * q))
-    return found
+        solutions.append(Orbit(one, phase, kappa * q))
+    return solutions
 
 
 def possible_orbits(one: Oscillator) -> list[Orbit]:
@@ -152,11 +152,11 @@ def doubling(one: Oscillator, low: float, high: float) -> mpf:
     """The frequency between two others at which the period of the stable orbit doubles."""
 
     def margin(frequency: mpf) -> mpf:
-        found = [
+        margins = [
             1 + orbit.trace + orbit.determinant
             for orbit in orbits(one._replace(frequency=frequency))
             if orbit.velocity > 0
         ]
-        return max(found)  # that of the other orbit of the pair is below it
+        return max(margins)  # that of the other orbit of the pair is below it
 
     return findroot(margin, (mpf(low), mpf(high)), solver="anderson")

@@ -64,9 +64,9 @@ class Jet:
         """By squaring; k at least 1."""
         if k == 1:
             return self
-        found = self._squared(k)
-        self.tape.powers.append((self, k, found))
-        return found
+        jet = self._squared(k)
+        self.tape.powers.append((self, k, jet))
+        return jet
 
     def _squared(self, k: int) -> Jet:
         if k == 1:
@@ -126,9 +126,9 @@ class Tape:
         The last terms do not see a power that begins beyond them: x^50 from x = 0.
         """
         for base, k, power in self.powers:
-            found, exact = (value(rescaled(one.c, factor), mpf(1)) for one in (power, base))
+            approximate, exact = (value(rescaled(one.c, factor), mpf(1)) for one in (power, base))
             size = exact**k if abs(exact) > 1 else mpf(1)
-            if abs(found - exact**k) > abs(size) * mpf(2) ** (20 - tolerance):
+            if abs(approximate - exact**k) > abs(size) * mpf(2) ** (20 - tolerance):
                 return False
         return True
 

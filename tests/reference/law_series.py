@@ -28,10 +28,10 @@ def fraction(exponent: float) -> Fraction:
     ValueError
         If it is not one of a small denominator, exactly.
     """
-    found = Fraction(exponent)
-    if found.denominator > FINEST:
+    ratio = Fraction(exponent)
+    if ratio.denominator > FINEST:
         raise ValueError(f"exponent: {exponent} is no small fraction")
-    return found
+    return ratio
 
 
 def law_of(isolator: Any) -> Any:
@@ -88,12 +88,12 @@ def restoring(
         )
         return (grow - fade - u * (2 * beta)) * mpf(law.hardening_force) + u * mpf(law.final) + z
     if isinstance(law, laws.Polynomial):
-        found = u * mpf(law.stiffness)
+        force = u * mpf(law.stiffness)
         if law.cubic or law.quintic:
             square = u * u
             bent = square * mpf(law.quintic) + mpf(law.cubic) if law.quintic else None
-            found = found + u * square * (bent if bent is not None else mpf(law.cubic))
-        return found
+            force = force + u * square * (bent if bent is not None else mpf(law.cubic))
+        return force
     return u * mpf(law.stiffness)
 
 

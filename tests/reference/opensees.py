@@ -109,9 +109,9 @@ def follow(
     begin = shaken.acceleration[0] if isinstance(shaken, vi.Record) else math.sin(shaken.phase)
     assert begin == 0.0
     _build(rig, shaken, span * spans)
-    found = np.empty((spans, 2))
-    for row in found:
+    states = np.empty((spans, 2))
+    for row in states:
         if ops.analyze(steps, span / steps):
             raise ArithmeticError("OpenSees gave up")
         row[:] = ops.nodeDisp(2, 1), ops.nodeVel(2, 1)
-    return found
+    return states

@@ -105,13 +105,13 @@ def assert_agreement(data: xr.Dataset, run: Reference, span: float, tolerance: f
 
     fastest = max((abs(e.v) for e in run.events if e.kind.startswith("impact")), default=0)
 
-    def told(kind: str, v: float) -> bool:
+    def is_compared(kind: str, v: float) -> bool:
         return not kind.startswith("impact") or abs(v) > SLOW * fastest
 
-    exact = [event for event in run.events if told(event.kind, event.v)]
+    exact = [event for event in run.events if is_compared(event.kind, event.v)]
     # To the reference, a contact at once is part of the start.
-    told_of = (e for e in events(data) if told(e.kind, e.v))
-    seen = [e for e in told_of if e.time > 0 or "contact" not in e.kind]
+    compared = (e for e in events(data) if is_compared(e.kind, e.v))
+    seen = [e for e in compared if e.time > 0 or "contact" not in e.kind]
     kinds = [e.kind for e in exact]
     assert [e.kind for e in seen] == kinds
     for one, other in zip(seen, exact, strict=True):

@@ -85,7 +85,7 @@ SIZES: dict[str, float] = {"record: linear, power 1.25 and hunt-crossley": 1.2}
 
 def cases(later: dict[str, Callable[[float], Any]]) -> dict[str, Case]:
     """The rigs by name, of which those without a stop of `later` do not depend on `later`."""
-    found = {}
+    by_name = {}
     isolators, stops = list(ISOLATORS), list(STOPS)
     stop_of = {**STOPS, **later}
     for kind, (shaken, shaking) in enumerate(SHAKEN.items()):
@@ -97,8 +97,8 @@ def cases(later: dict[str, Callable[[float], Any]]) -> dict[str, Case]:
             rig = vi.Oscillator(
                 MASS, ISOLATORS[isolator], stop_of[right](7e-3), stop_of[left](6e-3)
             )
-            found[name] = Case(rig, shaking(SIZES.get(name, 1.0)))
-    return found
+            by_name[name] = Case(rig, shaking(SIZES.get(name, 1.0)))
+    return by_name
 
 
 CASES = cases(LATER)

@@ -71,14 +71,14 @@ def known(case: Case) -> Known:
         )
 
 
-def write(found: dict[str, Known]) -> None:
+def write(states: dict[str, Known]) -> None:
     """The file, in the order of its cases."""
     path = Path(__file__).with_name("assembly_states.py")
     head, _, _ = path.read_text().partition("STATES: ")
     lines = [f"{head}STATES: dict[str, Known] = {{"]
     for name in CASES:
-        if name in found:
-            one = found[name]
+        if name in states:
+            one = states[name]
             lines += [f'    "{name}": Known(', "        ("]
             for state in one.states:
                 lines += ["            (", *(f'                "{x}",' for x in state)]
@@ -96,16 +96,16 @@ def write(found: dict[str, Known]) -> None:
 
 def main(words: str) -> None:
     """Store the cases whose names have these words."""
-    found = dict(STATES)
+    states = dict(STATES)
     for name, case in CASES.items():
         if words in name:
             print(name, flush=True)
             try:
-                found[name] = known(case)
+                states[name] = known(case)
             except (ValueError, ArithmeticError) as error:
                 print(f"  NOT STORED: {error}", flush=True)
-                found.pop(name, None)
-            write(found)
+                states.pop(name, None)
+            write(states)
 
 
 if __name__ == "__main__":

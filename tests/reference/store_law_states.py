@@ -98,8 +98,8 @@ def states(one: Case) -> States:
             if not any(kind.endswith(side) for kind in late):
                 raise ValueError(f"the {side} stop is not touched")
         kinds = [event.kind for event in motion.events]
-        told = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
-        print(f"  error {mp.nstr(error, 2)} m, growth {mp.nstr(growth, 3)}; {told}", flush=True)
+        counts = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
+        print(f"  error {mp.nstr(error, 2)} m, growth {mp.nstr(growth, 3)}; {counts}", flush=True)
         stored = [motion.states[n] for n in at]
         return tuple((mp.nstr(u, DIGITS), mp.nstr(v, DIGITS)) for u, v in stored)
 

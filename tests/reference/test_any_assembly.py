@@ -35,17 +35,17 @@ def test_one_mass_moves_as_by_the_reference_of_one_mass(name: str) -> None:
         stops={"r": vi.Link("m", "ground", right), "l": vi.Link("ground", "m", left)},
     )
     start = vi.State(velocity={"m": 0.1})
-    found = any_assembly.follow(vi.Rig(assembly, SHAKEN), 2, start, extremes=False)
+    run = any_assembly.follow(vi.Rig(assembly, SHAKEN), 2, start, extremes=False)
     alone = vi.Oscillator(1.1, isolator, right, left)
     expected = any_law.follow(alone, SHAKEN, 2, (0, 0.1))
     with mp.workdps(60):
-        for one, other in zip(found.states, expected.states, strict=True):
+        for one, other in zip(run.states, expected.states, strict=True):
             assert max(abs(a - b) for a, b in zip(one, other, strict=True)) < mpf("1e-28")
         kinds = [
             event for event in expected.events if event.kind[:5] in ("conta", "detac", "impac")
         ]
-        assert len(found.events) == len(kinds) > 3
-        for one, other in zip(found.events, kinds, strict=True):
+        assert len(run.events) == len(kinds) > 3
+        for one, other in zip(run.events, kinds, strict=True):
             assert abs(one.time - other.time) < mpf("1e-28")
 
 

@@ -142,9 +142,9 @@ def test_every_law_has_three_stored_rigs_and_more() -> None:
 
 
 def test_another_stop_changes_no_stored_rig() -> None:
-    found = shaken_cases.cases({"one": hertz, "two": hertz})
-    assert found.items() >= shaken_cases.CASES.items()
-    more = found.keys() - shaken_cases.CASES.keys()
+    cases = shaken_cases.cases({"one": hertz, "two": hertz})
+    assert cases.items() >= shaken_cases.CASES.items()
+    more = cases.keys() - shaken_cases.CASES.keys()
     assert len(more) == 4 * len(shaken_cases.SHAKEN)
     assert more >= shaken_cases.cases({"one": hertz}).keys() - shaken_cases.CASES.keys()
 

@@ -28,9 +28,9 @@ def test_the_first_zero_is_the_first(zeros: list[str], first: str | None) -> Non
             series = [mpf(zero) * a - b for a, b in zip([*series, mpf(0)], shifted, strict=True)]
         if series[0] < 0:
             series = [-value for value in series]
-        found = first_zero(series)
+        root = first_zero(series)
         if first is None:
-            assert found is None
+            assert root is None
         else:
-            assert found is not None
-            assert abs(found - mpf(first)) < mpf(10) ** -40
+            assert root is not None
+            assert abs(root - mpf(first)) < mpf(10) ** -40

@@ -33,9 +33,9 @@ def moved(orbit: Orbit, du: mpf, dv: mpf) -> State:
 @pytest.mark.parametrize("name", sample([*CASES], [*CASES][::3]))
 def test_it_comes_back_with_its_multipliers(name: str) -> None:
     with mp.workdps(80):
-        found = possible_orbits(CASES[name])
-        assert found
-        for orbit in found:
+        orbit_list = possible_orbits(CASES[name])
+        assert orbit_list
+        for orbit in orbit_list:
             u, v, _ = orbit.after(orbit.oscillator.span / 3)
             end = moved(orbit, mpf(0), mpf(0))
             assert abs(end[0] - u) + abs(end[1] - v) < ROUNDING

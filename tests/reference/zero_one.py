@@ -20,7 +20,7 @@ def zero_one(series: Array, angles: int = 60, seed: int = 1) -> float:
     n = len(series)
     cut = n // 10
     index = np.arange(1, n + 1)
-    found = []
+    correlations = []
     for c in np.random.default_rng(seed).uniform(np.pi / 5, 4 * np.pi / 5, angles):
         p = np.cumsum(series * np.cos(index * c))
         q = np.cumsum(series * np.sin(index * c))
@@ -33,8 +33,8 @@ def zero_one(series: Array, angles: int = 60, seed: int = 1) -> float:
             ]
         )
         swing = series.mean() ** 2 * (1 - np.cos(lags * c)) / (1 - np.cos(c))
-        found.append(np.corrcoef(lags, square - swing)[0, 1])
-    return float(np.median(found))
+        correlations.append(np.corrcoef(lags, square - swing)[0, 1])
+    return float(np.median(correlations))
 
 
 def rotation_number(x: Array, y: Array) -> float:

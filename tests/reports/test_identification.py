@@ -93,8 +93,8 @@ def test_the_next_test_keeps_away_from_a_jump(case, fit):
     jump = near[np.argmin(np.diff(swing[0]))]
     last = {}
     for margin in (0.0, 0.02, 0.1):
-        found = vi.next_test(fit, near, [case.amplitude], margin=margin)
-        gain = found.information.sel(direction="forward").isel(candidate_amplitude=0)
+        proposal = vi.next_test(fit, near, [case.amplitude], margin=margin)
+        gain = proposal.information.sel(direction="forward").isel(candidate_amplitude=0)
         last[margin] = near[np.isfinite(gain.values) & (near < jump + 0.01)].max()
         assert last[margin] * (1.0 + margin) < jump + 0.021  # the step in which it jumps
     assert last[0.1] < last[0.02] <= last[0.0]
@@ -106,9 +106,9 @@ def test_the_next_test_keeps_away_from_a_jump(case, fit):
 def test_models_are_compared(case, data, fit):
     asked = {"tried": 0, "starts": 1, "profiles": False}
     again = vi.identify(case.oscillator, data, "stops.stiffness", **asked)
-    found = vi.compare_fits({"two": fit, "one": again})
-    assert float(found.akaike_weight.sum()) == pytest.approx(1.0)
-    assert abs(float(found.akaike[1] - found.akaike[0])) < 10.0  # both are right
+    comparison = vi.compare_fits({"two": fit, "one": again})
+    assert float(comparison.akaike_weight.sum()) == pytest.approx(1.0)
+    assert abs(float(comparison.akaike[1] - comparison.akaike[0])) < 10.0  # both are right
     with pytest.raises(vi.InputError, match="at least two"):
         vi.compare_fits({"one": fit})
     other = curves(case.oscillator, case.amplitude, 0.02, seed=8)
@@ -122,10 +122,10 @@ def test_names_of_tests_are_no_markdown_and_no_html(tmp_path):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, frequencies=np.arange(1.0, 2.0, 0.1))
     names = ["<script>alert(1)</script> | x", "<script>alert(1)</script> / x", "[a](b) *c* `d`"]
-    found = vi.identify(
+    joint_fit = vi.identify(
         case, dict.fromkeys(names, data), "isolator.stiffness", tried=0, starts=1, profiles=False
     )
-    files = vi.fit_report(found, tmp_path)
+    files = vi.fit_report(joint_fit, tmp_path)
     text = files["markdown"].read_text()
     assert "<script>" not in text.replace("\\<script\\>", "")
     assert "](b)" not in text.replace("\\](b)", "")

@@ -46,8 +46,10 @@ def made(frequency, forward, backward=None, *, settled=True, period=1) -> xr.Dat
     )
 
 
-def primary(found: Features, direction: str, curve: str = "eta_a") -> float:
+def primary(curve_features: Features, direction: str, curve: str = "eta_a") -> float:
     (only,) = (
-        p for p in found.peaks if (p.direction, p.curve, p.primary) == (direction, curve, True)
+        p
+        for p in curve_features.peaks
+        if (p.direction, p.curve, p.primary) == (direction, curve, True)
     )
     return only.frequency

@@ -20,9 +20,9 @@ def rig(ratio: float) -> vi.Oscillator:
 
 def test_it_is_where_a_simulation_settles():
     one = vi.steady(vi.Rig(rig(0.1), vi.Harmonic(0.7, 0.5)), samples=8)
-    found = free_flight_excursions(vi.Rig(rig(0.1), vi.Harmonic(0.7, 1.0)), np.array([0.5]))
-    assert float(one["displacement_excursion"]) == pytest.approx(found[0][0], rel=1e-11)
-    assert float(one["acceleration_excursion"]) == pytest.approx(found[1][0], rel=1e-11)
+    excursions = free_flight_excursions(vi.Rig(rig(0.1), vi.Harmonic(0.7, 1.0)), np.array([0.5]))
+    assert float(one["displacement_excursion"]) == pytest.approx(excursions[0][0], rel=1e-11)
+    assert float(one["acceleration_excursion"]) == pytest.approx(excursions[1][0], rel=1e-11)
 
 
 @pytest.mark.parametrize("ratio", [1e-3, 0.15, 0.5, 0.70, 0.72, 1.0, 5.0])
@@ -96,10 +96,10 @@ def test_excursions_are_those_of_dense_samples(kind, isolator):
     stop = vi.Bumper(1.0, 1.0, 1e3)
     one = vi.Oscillator(3.0, vi.Isolator(*isolator), stop, stop)
     grid = np.array([0.04, 0.17, 0.33, 0.9, 2.0])
-    found = np.array(free_flight_excursions(vi.Rig(one, SHAKEN[kind]), grid))
+    excursions = np.array(free_flight_excursions(vi.Rig(one, SHAKEN[kind]), grid))
     dense = np.array([swings(one, SHAKEN[kind], f, 20_000) for f in grid]).T
-    assert (found >= dense * (1 - 1e-13)).all()
-    np.testing.assert_allclose(found, dense, rtol=2e-6)
+    assert (excursions >= dense * (1 - 1e-13)).all()
+    np.testing.assert_allclose(excursions, dense, rtol=2e-6)
 
 
 @pytest.mark.parametrize("kind", SHAKEN)
@@ -127,7 +127,7 @@ def test_transmissibility(ratio):
     one = rig(ratio)
     for r in (0.3, 0.9, 1.0, 1.7, 4.0):
         shaken = vi.Harmonic("20 mm", r * one.natural_frequency, 0.4)
-        told = np.sqrt(
+        gain = np.sqrt(
             (1 + (2 * ratio * r) ** 2) / ((1 - r) ** 2 * (1 + r) ** 2 + (2 * ratio * r) ** 2)
         )
         omega = shaken.angular_frequency
@@ -135,14 +135,14 @@ def test_transmissibility(ratio):
         angle = 2.0 * np.pi * data["cycle"].values[:64] + 0.4
         absolute = data["displacement"].values[:64] + 0.02 * np.sin(angle)
         line = 2.0 / 64 * np.abs(np.sum(absolute * np.exp(-1j * angle)))
-        assert line / 0.02 == pytest.approx(told, rel=1e-12)
+        assert line / 0.02 == pytest.approx(gain, rel=1e-12)
         np.testing.assert_allclose(
             data["base_acceleration"].values[:64], -0.02 * omega**2 * np.sin(angle), atol=1e-13
         )
         excursion = float(data["acceleration_excursion"])
-        assert excursion / (2 * omega**2 * 0.02) == pytest.approx(told, rel=1e-12)
-        found = free_flight_excursions(vi.Rig(one, shaken), np.array([shaken.frequency]))
-        assert found[1][0] / (2 * omega**2 * 0.02) == pytest.approx(told, rel=1e-12)
+        assert excursion / (2 * omega**2 * 0.02) == pytest.approx(gain, rel=1e-12)
+        excursions = free_flight_excursions(vi.Rig(one, shaken), np.array([shaken.frequency]))
+        assert excursions[1][0] / (2 * omega**2 * 0.02) == pytest.approx(gain, rel=1e-12)
 
 
 @pytest.mark.parametrize(

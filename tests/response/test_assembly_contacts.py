@@ -32,12 +32,12 @@ SAME = {
 }  # fmt: skip
 
 
-def near(found: xr.DataArray, expected: xr.DataArray, tolerance: float = 1e-11) -> None:
+def near(actual: xr.DataArray, expected: xr.DataArray, tolerance: float = 1e-11) -> None:
     values = np.asarray(expected)
     finite = np.abs(values[np.isfinite(values)])
     size = float(finite.max(initial=0.0)) + 1e-5
     np.testing.assert_allclose(
-        np.squeeze(found), np.squeeze(expected), rtol=0, atol=tolerance * size
+        np.squeeze(actual), np.squeeze(expected), rtol=0, atol=tolerance * size
     )
 
 
@@ -90,20 +90,20 @@ def test_totals_of_one_mass_are_the_oscillators(kind: str) -> None:
     )
 
 
-def balance(found: xr.Dataset) -> None:
-    lost = [found[f"total_{name}"].sum() for name in ("links", "stops", "damping", "stored")]
+def balance(totals: xr.Dataset) -> None:
+    lost = [totals[f"total_{name}"].sum() for name in ("links", "stops", "damping", "stored")]
     size = float(sum(abs(one) for one in lost))
-    assert float(sum(lost)) == pytest.approx(float(found["total_supplied"]), abs=1e-11 * size)
+    assert float(sum(lost)) == pytest.approx(float(totals["total_supplied"]), abs=1e-11 * size)
     assert size > 0.0
 
 
 @pytest.mark.parametrize("shaking", [vi.Harmonic(3.0, 1.9, 0.3), QUAKE])
 def test_energies_are_balanced(shaking: object) -> None:
     cycles = 12.4 if isinstance(shaking, vi.Harmonic) else None
-    found = vi.totals(vi.simulate(vi.Rig(neighbours(), shaking), cycles, samples=2))
-    balance(found)
-    assert (found["total_stops"] > 0.0).all()
-    assert (found["total_links"] > 0.0).all()
+    totals = vi.totals(vi.simulate(vi.Rig(neighbours(), shaking), cycles, samples=2))
+    balance(totals)
+    assert (totals["total_stops"] > 0.0).all()
+    assert (totals["total_links"] > 0.0).all()
 
 
 def test_energies_of_modal_damping_and_rigid_neighbours() -> None:
@@ -118,21 +118,22 @@ def test_energies_of_modal_damping_and_rigid_neighbours() -> None:
     )
     force = vi.Harmonic("700 kN", "2.2 Hz", on="floor_2")
     motion = vi.simulate(vi.Rig(towers, force), 25, samples=4)
-    found = vi.totals(motion)
-    balance(found)
-    assert float(found["total_damping"]) > 0.0
-    assert (found["total_links"] == 0.0).all()
+    totals = vi.totals(motion)
+    balance(totals)
+    assert float(totals["total_damping"]) > 0.0
+    assert (totals["total_links"] == 0.0).all()
     log = vi.contacts(motion)
     for stop in ("low", "high"):
         mine = log["contact_stop"] == stop
         assert int(mine.sum()) >= 5
         # All but what is cut off, and what free bumpers lose before the first contact.
         lost = (log["contact_dissipated"] + log["contact_dissipated_relaxing"])[mine].sum()
-        assert float(lost) <= float(found["total_stops"].sel(stop=stop)) * (1.0 + 1e-12)
+        assert float(lost) <= float(totals["total_stops"].sel(stop=stop)) * (1.0 + 1e-12)
         assert int(mine.sum()) in (
-            int(found["impact_count"].sel(stop=stop)) - 1, int(found["impact_count"].sel(stop=stop))
-        )  # fmt: skip
-    assert float(found["peak_force"].sel(stop="low")) == math.inf
+            int(totals["impact_count"].sel(stop=stop)) - 1,
+            int(totals["impact_count"].sel(stop=stop)),
+        )
+    assert float(totals["peak_force"].sel(stop="low")) == math.inf
     impacts = log["contact_stop"] == "low"
     np.testing.assert_allclose(log["contact_restitution"][impacts], 0.6, rtol=1e-9)
 
@@ -140,19 +141,19 @@ def test_energies_of_modal_damping_and_rigid_neighbours() -> None:
 @pytest.mark.parametrize("stop", [None, vi.RigidStop(0.8, 0.012)])
 def test_totals_of_a_steady_motion_are_those_of_its_sweep(stop: object) -> None:
     motion = vi.steady(vi.Rig(frame(stop), vi.Harmonic("1 m/s2", 0.9)))
-    found, log = vi.totals(motion), vi.contacts(motion)
-    for name in found:
+    totals, log = vi.totals(motion), vi.contacts(motion)
+    for name in totals:
         if name in motion and not str(name).startswith("peak_force"):
-            near(found[name], motion[name], 1e-12)
-    np.testing.assert_allclose(found["peak_force"], motion["peak_force"], rtol=1e-12)
+            near(totals[name], motion[name], 1e-12)
+    np.testing.assert_allclose(totals["peak_force"], motion["peak_force"], rtol=1e-12)
     period = int(motion["period"])
     for stop_name in ("right", "left"):
         count = int((log["contact_stop"] == stop_name).sum())
         assert count == period * float(motion["impacts"].sel(stop=stop_name))
     # What is stored comes again, and so each contact's loss is in the list.
-    assert abs(float(found["total_stored"])) < 1e-9 * float(found["total_supplied"])
+    assert abs(float(totals["total_stored"])) < 1e-9 * float(totals["total_supplied"])
     lost = float((log["contact_dissipated"] + log["contact_dissipated_relaxing"]).sum())
-    assert lost == pytest.approx(float(found["total_stops"].sum()), rel=1e-9)
+    assert lost == pytest.approx(float(totals["total_stops"].sum()), rel=1e-9)
 
 
 def test_bodies_that_stop_at_once_leave_no_extreme_unknown() -> None:
@@ -160,23 +161,23 @@ def test_bodies_that_stop_at_once_leave_no_extreme_unknown() -> None:
     motion = vi.simulate(
         vi.Rig(frame(vi.RigidStop(0.0, 0.012)), vi.Harmonic("1 m/s2", 0.9)), 8, samples=64
     )
-    found = vi.totals(motion)
-    assert (found["impact_count"] > 2.0).all()
+    totals = vi.totals(motion)
+    assert (totals["impact_count"] > 2.0).all()
     sampled = abs(motion["acceleration"]).max("time")
-    assert (found["peak_acceleration"] >= sampled * (1.0 - 1e-9)).all()
-    assert float(found["peak_transmitted_force"]) >= float(abs(motion["transmitted_force"]).max())
-    balance(found)
+    assert (totals["peak_acceleration"] >= sampled * (1.0 - 1e-9)).all()
+    assert float(totals["peak_transmitted_force"]) >= float(abs(motion["transmitted_force"]).max())
+    balance(totals)
 
 
 def test_impacts_of_an_impact_damper_are_those_of_its_formula() -> None:
     zeta, mu, e, d, speed = 0.01, 0.05, 0.75, 30.0, 14.78340654
     rig = damper(zeta=zeta, mass=mu, e=e, clearance=d)
     motion = vi.orbit(rig)
-    log, found = vi.contacts(motion), vi.totals(motion)
+    log, totals = vi.contacts(motion), vi.totals(motion)
     assert log.sizes["contact_number"] == 2
     # The ball turns round at each impact.
     np.testing.assert_allclose(log["contact_impulse"], 2.0 * mu * speed, rtol=1e-8)
-    np.testing.assert_allclose(found["impulse"], 2.0 * mu * speed, rtol=1e-8)
+    np.testing.assert_allclose(totals["impulse"], 2.0 * mu * speed, rtol=1e-8)
     np.testing.assert_allclose(
         abs(log["contact_start_velocity"].sel(mass="ball")), speed, rtol=1e-8
     )
@@ -184,8 +185,8 @@ def test_impacts_of_an_impact_damper_are_those_of_its_formula() -> None:
     np.testing.assert_allclose(log["contact_closing_speed"], closing, rtol=1e-8)
     meeting = mu / (1.0 + mu)
     lost = 0.5 * meeting * (1.0 - e * e) * closing**2
-    np.testing.assert_allclose(found["total_stops"], lost, rtol=1e-8)
-    balance(found)
+    np.testing.assert_allclose(totals["total_stops"], lost, rtol=1e-8)
+    balance(totals)
 
 
 def test_a_ball_in_a_shaken_cavity_is_that_of_its_formula() -> None:
@@ -207,9 +208,9 @@ def test_a_ball_in_a_shaken_cavity_is_that_of_its_formula() -> None:
     shaken = vi.Harmonic(size, 1.0 / (2.0 * math.pi), of="displacement")
     start = vi.State(displacement={"ball": 0.9}, velocity={"ball": 0.6})
     settled = vi.simulate(vi.Rig(ball, shaken), 300, start, samples=0)
-    found = vi.totals(vi.simulate(vi.Rig(ball, shaken), 1, settled, samples=4))
-    assert found["impact_count"].values.tolist() == [1.0, 1.0]
-    np.testing.assert_allclose(found["impulse"], 2.0 * mass * speed, rtol=1e-9)
+    totals = vi.totals(vi.simulate(vi.Rig(ball, shaken), 1, settled, samples=4))
+    assert totals["impact_count"].values.tolist() == [1.0, 1.0]
+    np.testing.assert_allclose(totals["impulse"], 2.0 * mass * speed, rtol=1e-9)
 
 
 def mirrored(assembly: vi.Assembly) -> vi.Assembly:
@@ -220,22 +221,22 @@ def mirrored(assembly: vi.Assembly) -> vi.Assembly:
 def test_mirror_and_order_change_nothing() -> None:
     rig = neighbours()
     shaking = vi.Harmonic(3.0, 1.9, 0.3)
-    found, log = (
+    totals, log = (
         of(vi.simulate(vi.Rig(rig, shaking), 8, samples=2)) for of in (vi.totals, vi.contacts)
     )
     image = vi.simulate(vi.Rig(mirrored(rig), shaking.replace(phase=0.3 + math.pi)), 8, samples=2)
     other = vi.totals(image)
-    near(other["displacement_max"], -found["displacement_min"])
-    near(other["acceleration_min"], -found["acceleration_max"])
-    near(other["drift_max"], -found["drift_min"])
+    near(other["displacement_max"], -totals["displacement_min"])
+    near(other["acceleration_min"], -totals["acceleration_max"])
+    near(other["drift_max"], -totals["drift_min"])
     for name in ("peak_force", "impulse", "impact_count", "total_links", "total_stops"):
-        near(other[name], found[name], 1e-10)
+        near(other[name], totals[name], 1e-10)
     turned = rig.replace(masses=dict(reversed(list(rig.masses.items()))))
     motion = vi.simulate(vi.Rig(turned, shaking), 8, samples=2)
     again = vi.totals(motion)
-    assert list(again["mass"].values) == list(found["mass"].values)[::-1]
-    for name in found:
-        near(again[name].reindex_like(found[name]), found[name], 1e-10)
+    assert list(again["mass"].values) == list(totals["mass"].values)[::-1]
+    for name in totals:
+        near(again[name].reindex_like(totals[name]), totals[name], 1e-10)
     same = vi.contacts(motion)
     assert same["contact_stop"].values.tolist() == log["contact_stop"].values.tolist()
     near(same["contact_impulse"], log["contact_impulse"], 1e-9)
@@ -280,6 +281,6 @@ def test_bodies_that_left_without_speed_and_return_hit_each_other() -> None:
     shaken = vi.Harmonic(1.9858781414912148, 0.11742319496363401, 0.007054873381011628)
     motion = vi.simulate(vi.Rig(assembly, shaken), 3)
     assert motion["event_contact"].values.tolist() == [2, 1, 0, 2, 2, 1, 0]
-    found = vi.totals(motion)
-    spent = found["total_links"].sum() + found["total_stops"].sum() + found["total_stored"]
-    assert float(spent) == pytest.approx(float(found["total_supplied"]), rel=1e-11)
+    totals = vi.totals(motion)
+    spent = totals["total_links"].sum() + totals["total_stops"].sum() + totals["total_stored"]
+    assert float(spent) == pytest.approx(float(totals["total_supplied"]), rel=1e-11)

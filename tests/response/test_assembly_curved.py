@@ -67,8 +67,8 @@ def follow(
     **rest: Any,
 ) -> Any:
     parts = {
-        part: {name: vi.Link(*one) for name, one in given.items()}
-        for part, given in (("links", links), ("stops", stops))
+        part: {name: vi.Link(*one) for name, one in table.items()}
+        for part, table in (("links", links), ("stops", stops))
     }
     rig = vi.Rig(vi.Assembly(masses=masses, **parts, **rest), shaking)
     return vi.simulate(rig, cycles, start=start, samples=32)
@@ -145,8 +145,8 @@ def test_two_copies_side_by_side_move_as_one(isolator: Any, stop: Any) -> None:
     )
     assert len(two.event) == 2 * len(one.event) > 0
     for copy, original in (("a", "a"), ("b", "a"), ("c", "c"), ("d", "c")):
-        found = two.displacement.sel(mass=copy)
-        assert apart(found, one.displacement.sel(mass=original)) < 1e-13
+        u = two.displacement.sel(mass=copy)
+        assert apart(u, one.displacement.sel(mass=original)) < 1e-13
 
 
 @pytest.mark.parametrize(
@@ -226,8 +226,10 @@ def test_smooth_links_between_masses_against_another_solver() -> None:
         return [va, vb, link - base - shaking, -link / 0.6 - shaking]
 
     times = motion.time.values
-    found = solve_ivp(rate, (0.0, times[-1]), np.zeros(4), "DOP853", times, rtol=3e-14, atol=1e-16)
-    assert apart(motion.displacement, found.y[:2]) < 3e-12
+    solution = solve_ivp(
+        rate, (0.0, times[-1]), np.zeros(4), "DOP853", times, rtol=3e-14, atol=1e-16
+    )
+    assert apart(motion.displacement, solution.y[:2]) < 3e-12
 
 
 def test_links_stuck_at_once_and_the_most_overloaded_slides_first() -> None:
@@ -337,15 +339,17 @@ def test_sweeps_of_one_mass_are_those_of_an_oscillator(name: str) -> None:
     links = {"i": vi.Link("ground", "m", isolator)}
     assembly = vi.Assembly(masses={"m": 1.0}, links=links, stops=stops)
     frequencies = [1.5, 1.9, 2.3]
-    expected, found = (vi.sweep(vi.Rig(one, SHAKEN), frequencies) for one in (oscillator, assembly))
+    expected, several = (
+        vi.sweep(vi.Rig(one, SHAKEN), frequencies) for one in (oscillator, assembly)
+    )
     for variable in ("peak_displacement", "peak_acceleration"):
-        values = found[variable].sel(mass="m").values
+        values = several[variable].sel(mass="m").values
         assert values == pytest.approx(expected[variable].values, rel=1e-9)
-    assert found.peak_transmitted_force.values == pytest.approx(
+    assert several.peak_transmitted_force.values == pytest.approx(
         expected.peak_transmitted_force.values, rel=1e-9
     )
-    assert (found.period.values == expected.period.values).all()
-    assert found.impacts.values.max() > 0
+    assert (several.period.values == expected.period.values).all()
+    assert several.impacts.values.max() > 0
 
 
 @pytest.mark.parametrize(("isolator", "stop"), [(BOUC_WEN, WALL), (BILINEAR, BUMPER)])
@@ -356,11 +360,11 @@ def test_orbits_of_one_mass_are_those_of_an_oscillator(isolator: Any, stop: Any)
         links={"i": vi.Link("ground", "m", isolator)},
         stops={"right": vi.Link("m", "ground", stop)},
     )
-    expected, found = (vi.orbit(vi.Rig(one, SHAKEN)) for one in (oscillator, assembly))
-    assert float(found.effective_damping) == pytest.approx(
+    expected, several = (vi.orbit(vi.Rig(one, SHAKEN)) for one in (oscillator, assembly))
+    assert float(several.effective_damping) == pytest.approx(
         float(expected.effective_damping), rel=1e-10
     )
-    assert found.displacement.values.ravel() == pytest.approx(
+    assert several.displacement.values.ravel() == pytest.approx(
         expected.displacement.values.ravel(), rel=0.0, abs=1e-11
     )
 
@@ -371,9 +375,9 @@ def test_a_drag_is_nothing_while_friction_holds(exponent: float) -> None:
     law = vi.FrictionIsolator(100.0, 0.5, 0.5, damping_exponent=exponent)
     one = vi.Assembly({"m": 1.0}, {"i": vi.Link("ground", "m", law)})
     rigs = (vi.Rig(system, vi.Harmonic(2.0, 1.6)) for system in (vi.Oscillator(1.0, law), one))
-    expected, found = (vi.simulate(rig, 4, samples=0) for rig in rigs)
-    assert found.attrs["message"] == "done"
-    ends = [data["final_state"].values[:2] for data in (expected, found)]
+    expected, several = (vi.simulate(rig, 4, samples=0) for rig in rigs)
+    assert several.attrs["message"] == "done"
+    ends = [data["final_state"].values[:2] for data in (expected, several)]
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
@@ -391,13 +395,13 @@ def test_energies_of_one_mass_are_those_of_an_oscillator(name: str, cycles: floa
     one = vi.Oscillator(1.0, isolator, **sides)
     several = vi.Assembly({"a": 1.0}, {"x": vi.Link("ground", "a", isolator)}, stops)
     motions = [vi.simulate(vi.Rig(system, SHAKEN), cycles) for system in (one, several)]
-    expected, found = (vi.totals(motion) for motion in motions)
+    expected, actual = (vi.totals(motion) for motion in motions)
     size = float(expected["total_isolator"] + expected["total_bumpers"])
     for mine, theirs in (("links", "isolator"), ("stops", "bumpers"), ("supplied", "supplied")):
-        lost = float(found[f"total_{mine}"].sum())
+        lost = float(actual[f"total_{mine}"].sum())
         assert lost == pytest.approx(float(expected[f"total_{theirs}"]), abs=1e-10 * size)
     state = [stored(several, motions[1][f"{when}_state"]) for when in ("initial", "final")]
-    assert float(found["total_stored"]) == pytest.approx(state[1] - state[0], abs=1e-10 * size)
+    assert float(actual["total_stored"]) == pytest.approx(state[1] - state[0], abs=1e-10 * size)
 
 
 def test_a_stop_that_is_pressed_at_the_end_has_lost_nothing() -> None:
@@ -413,9 +417,9 @@ def test_a_stop_that_is_pressed_at_the_end_has_lost_nothing() -> None:
     end = float(whole["event_time"][1])
     motion = vi.simulate(rig, 1.6 * 0.6 * end, start, 512)
     assert motion["final_state"].sel(component="touching.z") == 1.0
-    found = vi.totals(motion)
-    assert abs(float(found["total_stops"].item())) < 1e-13
-    spent = found["total_links"].sum() + found["total_stops"].sum() + found["total_stored"]
+    totals = vi.totals(motion)
+    assert abs(float(totals["total_stops"].item())) < 1e-13
+    spent = totals["total_links"].sum() + totals["total_stops"].sum() + totals["total_stored"]
     assert float(spent) == pytest.approx(0.0, abs=1e-13)
     # It goes on from there: what was stored is given back, none of it a second time.
     rest = vi.totals(vi.simulate(rig, 1.0, motion, 64))
@@ -432,10 +436,10 @@ def test_losses_of_two_yielding_links_are_known_as_a_sum_only() -> None:
         },
     )
     motion = vi.simulate(vi.Rig(linked, SHAKEN), 3)
-    found = vi.totals(motion)
-    assert np.isnan(found["total_links"]).values.tolist() == [True, True, False]
-    assert "total_links of x, y is NaN" in found.attrs["notes"]
-    rest = found["total_supplied"] - found["total_links"].sel(link="z") - found["total_stored"]
+    totals = vi.totals(motion)
+    assert np.isnan(totals["total_links"]).values.tolist() == [True, True, False]
+    assert "total_links of x, y is NaN" in totals.attrs["notes"]
+    rest = totals["total_supplied"] - totals["total_links"].sel(link="z") - totals["total_stored"]
     assert float(rest) > 0.0
 
 
@@ -449,7 +453,7 @@ def test_samples_of_long_steps_near_the_limit_of_a_stiff_memory(exponent: float)
     rig = vi.Assembly({"a": 1.80505}, {"link": vi.Link("ground", "a", law)})
     for amplitude in np.linspace(0.1, 0.6, 9):
         shaken = vi.Harmonic(amplitude, 0.0965529, 5.57661)
-        found = vi.simulate(vi.Rig(rig, shaken), 3, samples=800)
-        u, v, t = (found[name].values for name in ("displacement", "velocity", "time"))
+        motion = vi.simulate(vi.Rig(rig, shaken), 3, samples=800)
+        u, v, t = (motion[name].values for name in ("displacement", "velocity", "time"))
         moved = np.diff(t) * 0.5 * (v[:, 1:] + v[:, :-1])
         assert np.abs(np.diff(u) - moved).max() < 1e-4 * np.abs(v).max() * t[1]

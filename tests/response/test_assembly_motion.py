@@ -36,10 +36,10 @@ def one_mass(right: Any, left: Any, force: float = 0.0) -> tuple[vi.Oscillator, 
     )
 
 
-def near(found: xr.DataArray, expected: xr.DataArray, tolerance: float = 1e-12) -> None:
-    assert found.shape == expected.shape
+def near(actual: xr.DataArray, expected: xr.DataArray, tolerance: float = 1e-12) -> None:
+    assert actual.shape == expected.shape
     size = float(abs(expected).max()) or 1.0
-    assert float(abs(found.values - expected.values).max()) <= tolerance * size
+    assert float(abs(actual.values - expected.values).max()) <= tolerance * size
 
 
 QUAKE = vi.Record(2.0 * np.sin(np.arange(300) * 0.21) * np.sin(np.arange(300) * 0.013), 0.02)
@@ -63,27 +63,27 @@ def test_one_mass_is_an_oscillator(what: str, stops: str) -> None:
         "one wall": (None, vi.RigidStop(0.8, 4e-3)),
     }[stops]
     oscillator, assembly = one_mass(right, left, 20.0)
-    given = {"samples": 3, "tail": 0.313} if what == "record" else {"cycles": 12.3}
-    plain = vi.simulate(vi.Rig(oscillator, SHAKING[what]), **given)
-    found = vi.simulate(vi.Rig(assembly, SHAKING[what]), **given)
+    options = {"samples": 3, "tail": 0.313} if what == "record" else {"cycles": 12.3}
+    plain = vi.simulate(vi.Rig(oscillator, SHAKING[what]), **options)
+    motion = vi.simulate(vi.Rig(assembly, SHAKING[what]), **options)
     assert len(plain["event_time"]) >= 8
-    np.testing.assert_array_equal(found["time"], plain["time"])
+    np.testing.assert_array_equal(motion["time"], plain["time"])
     for name in ("displacement", "velocity", "acceleration"):
-        near(found[name].sel(mass="m"), plain[name])
-        assert found[name].attrs == plain[name].attrs
-    near(found["transmitted_force"], plain["transmitted_force"])
+        near(motion[name].sel(mass="m"), plain[name])
+        assert motion[name].attrs == plain[name].attrs
+    near(motion["transmitted_force"], plain["transmitted_force"])
     shaken = "applied_force" if what in ("force", "unbalance") else "base_acceleration"
-    near(found[shaken], plain[shaken], 1e-15)
+    near(motion[shaken], plain[shaken], 1e-15)
     for side in assembly.stops:
-        near(found["clearance"].sel(stop=side), plain["clearance"].sel(stop=side))
-        near(found["deformation"].sel(stop=side), plain["deformation"].sel(stop=side))
-    assert found["event_contact"].values.tolist() == plain["event_contact"].values.tolist()
-    assert found["event_stop"].values.tolist() == plain["event_stop"].values.tolist()
-    near(found["event_time"], plain["event_time"])
-    near(found["event_displacement"].sel(mass="m"), plain["event_displacement"])
-    near(found["event_velocity"].sel(mass="m"), plain["event_velocity"])
-    assert found["status"] == 0
-    assert found["simultaneous_impacts"] == 0
+        near(motion["clearance"].sel(stop=side), plain["clearance"].sel(stop=side))
+        near(motion["deformation"].sel(stop=side), plain["deformation"].sel(stop=side))
+    assert motion["event_contact"].values.tolist() == plain["event_contact"].values.tolist()
+    assert motion["event_stop"].values.tolist() == plain["event_stop"].values.tolist()
+    near(motion["event_time"], plain["event_time"])
+    near(motion["event_displacement"].sel(mass="m"), plain["event_displacement"])
+    near(motion["event_velocity"].sel(mass="m"), plain["event_velocity"])
+    assert motion["status"] == 0
+    assert motion["simultaneous_impacts"] == 0
 
 
 def neighbours() -> vi.Assembly:
@@ -131,8 +131,8 @@ def against_exact(motion: xr.Dataset, exact: Exact, period: float) -> None:
     end = motion.isel(time=-1)
     np.testing.assert_allclose(end["displacement"], np.array(exact.y[:2], float), rtol=1e-10)
     np.testing.assert_allclose(end["velocity"], np.array(exact.y[2:4], float), rtol=1e-10)
-    found = float(end["deformation"].sel(stop="between"))
-    assert found == pytest.approx(float(exact.deformation(0)), rel=1e-9, abs=1e-20)
+    deformation = float(end["deformation"].sel(stop="between"))
+    assert deformation == pytest.approx(float(exact.deformation(0)), rel=1e-9, abs=1e-20)
 
 
 @pytest.mark.parametrize("what", DRIVEN)
@@ -215,12 +215,12 @@ def test_neighbours_between_events_of_a_general_integrator() -> None:
         ]
 
     time = motion["time"].values
-    found = solve_ivp(rate, (0, time[-1]), [0.0] * 4, "DOP853", time, rtol=1e-12, atol=1e-14)
-    p, w = np.array([force(y) for y in found.y.T]).T
+    solution = solve_ivp(rate, (0, time[-1]), [0.0] * 4, "DOP853", time, rtol=1e-12, atol=1e-14)
+    p, w = np.array([force(y) for y in solution.y.T]).T
     assert p.max() > 0.0
     assert w.max() > 0.0
-    np.testing.assert_allclose(motion["displacement"], found.y[:2], atol=1e-8)
-    np.testing.assert_allclose(motion["velocity"], found.y[2:], atol=1e-6)
+    np.testing.assert_allclose(motion["displacement"], solution.y[:2], atol=1e-8)
+    np.testing.assert_allclose(motion["velocity"], solution.y[2:], atol=1e-6)
 
 
 def test_restitution_between_free_masses() -> None:
@@ -547,7 +547,7 @@ RIG = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("options", "says"),
     [
         ({"start": vi.State(0.01)}, "is the state of one mass; pass values by name"),
         ({"start": 3}, "start: 3 is not a state"),
@@ -573,12 +573,12 @@ RIG = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
         ({"tail": 1.0}, "tail: 1.0, but no Record shakes this rig"),
     ],
 )
-def test_bad_starts_are_refused(given: dict[str, Any], says: str) -> None:
+def test_bad_starts_are_refused(options: dict[str, Any], says: str) -> None:
     if says.endswith("passed"):
-        vi.simulate(RIG, 1, **given)  # a bumper is compressed as far as its bodies overlap
+        vi.simulate(RIG, 1, **options)  # a bumper is compressed as far as its bodies overlap
         return
     with pytest.raises(vi.InputError, match=says) as error:
-        vi.simulate(RIG, 1, **given)
+        vi.simulate(RIG, 1, **options)
     assert "\n" not in str(error.value)
 
 

@@ -15,8 +15,8 @@ SINE = vi.Harmonic("1 m/s2", 0.9, 0.3)
 
 
 def lines(data: xr.Dataset, name: str) -> np.ndarray:
-    found = data[f"{name}_amplitude"] * np.exp(1j * data[f"{name}_phase"])
-    return found.transpose("order", ...).values
+    spectrum = data[f"{name}_amplitude"] * np.exp(1j * data[f"{name}_phase"])
+    return spectrum.transpose("order", ...).values
 
 
 @pytest.mark.parametrize("kind", STOPS)
@@ -36,7 +36,7 @@ def test_spectra_of_one_mass_are_the_oscillators(kind: str) -> None:
 def test_lines_are_those_of_dense_samples() -> None:
     motion = vi.steady(vi.Rig(frame(), SINE), samples=2**15)
     assert len(motion["event_time"]) > 2
-    found = vi.fourier_spectrum(motion, 60)
+    spectrum = vi.fourier_spectrum(motion, 60)
     for name in QUANTITIES:
         samples = motion[name].transpose("time", "mass").values[:-1]
         dense = 2.0 * np.fft.rfft(samples, axis=0)[:61] / len(samples)
@@ -44,16 +44,16 @@ def test_lines_are_those_of_dense_samples() -> None:
         size = np.abs(dense).max(axis=0)
         # The acceleration jumps where a dashpot is met: the trapezoidal rule is of first order.
         tolerance = 1e-4 if name == "acceleration" else 1e-8
-        np.testing.assert_allclose(lines(found, name) / size, dense / size, atol=tolerance)
+        np.testing.assert_allclose(lines(spectrum, name) / size, dense / size, atol=tolerance)
 
 
 def test_velocities_are_derivatives_and_forces_balance() -> None:
     """To rounding also at orders of many turns on a piece: i omega u = v, momentum from outside."""
     motion = vi.steady(vi.Rig(frame(), SINE))
-    found = vi.fourier_spectrum(motion, 200)
-    order = found["order"].values[:, np.newaxis]
+    spectrum = vi.fourier_spectrum(motion, 200)
+    order = spectrum["order"].values[:, np.newaxis]
     omega = 2.0 * np.pi * SINE.frequency * order
-    u, v, a = (lines(found, name) for name in QUANTITIES)
+    u, v, a = (lines(spectrum, name) for name in QUANTITIES)
     np.testing.assert_allclose(1j * omega * u, v, rtol=0, atol=5e-13 * np.abs(v).max())
     # No stop acts on the roof: its mass times acceleration is the force of the storey.
     stretch, rate = u[:, 1] - u[:, 0], v[:, 1] - v[:, 0]
@@ -64,13 +64,13 @@ def test_velocities_are_derivatives_and_forces_balance() -> None:
 def test_a_motion_that_is_not_periodic_has_a_window() -> None:
     rig = vi.Rig(frame(), SINE)
     motion = vi.simulate(rig, 30, vi.State(displacement={"roof": 0.02}), samples=32)
-    found = vi.fourier_spectrum(motion, 4)
-    assert found.attrs["method"] == "Hann window over 30 forcing cycles"
+    spectrum = vi.fourier_spectrum(motion, 4)
+    assert spectrum.attrs["method"] == "Hann window over 30 forcing cycles"
     values = motion["displacement"].sel(mass="roof").values[: 30 * 32]
-    assert float(found["displacement_amplitude"].sel(mass="roof")[0]) == pytest.approx(
+    assert float(spectrum["displacement_amplitude"].sel(mass="roof")[0]) == pytest.approx(
         abs(values.mean())
     )
-    assert found["displacement_amplitude"].sel(order=1.0).argmax("mass") == 1
+    assert spectrum["displacement_amplitude"].sel(order=1.0).argmax("mass") == 1
 
 
 @pytest.mark.parametrize("kind", STOPS)

@@ -35,9 +35,9 @@ def test_modes_are_superposed_where_nothing_touches(kind: str) -> None:
     }[kind]
     if kind == "harmonics":
         shaking = vi.Periodic(FREQUENCIES[0], [0.2, 0.1], [0.0, 0.4])
-    found = vi.sweep(vi.Rig(assembly, shaking), FREQUENCIES, "forward")
-    assert (found["status"] == 0).all()
-    assert (found["impacts"] == 0).all()
+    sweep = vi.sweep(vi.Rig(assembly, shaking), FREQUENCIES, "forward")
+    assert (sweep["status"] == 0).all()
+    assert (sweep["impacts"] == 0).all()
     angles = np.linspace(0, 2 * np.pi, 20_001)
     m, c, k = assembly.mass_matrix, assembly.damping_matrix, assembly.stiffness_matrix
     for i, f in enumerate(FREQUENCIES):
@@ -57,7 +57,7 @@ def test_modes_are_superposed_where_nothing_touches(kind: str) -> None:
             wave = np.exp(1j * (order * angles + turn))
             motion += np.imag(np.outer(u, wave))
             felt += np.imag(np.outer(-(w**2) * u + base, wave))
-        here = found.isel(frequency=i, direction=0)
+        here = sweep.isel(frequency=i, direction=0)
         for name, rows in (("displacement", motion), ("acceleration", felt)):
             got = here[f"{name}_max"].values
             if kind == "harmonics":  # beside the sampled extremes, to the sampling
@@ -89,34 +89,34 @@ def test_one_mass_is_the_oscillator(rigid: bool) -> None:
         links={"isolator": vi.Link("ground", "m", isolator)},
         stops={"right": vi.Link("m", "ground", stop), "left": vi.Link("ground", "m", stop)},
     )
-    found = vi.sweep(vi.Rig(several, shaking), frequencies)
+    sweep = vi.sweep(vi.Rig(several, shaking), frequencies)
     settled = (one["period"] > 0).values
     assert settled.sum() >= 6
-    assert (found["period"].values == one["period"].values).all()
+    assert (sweep["period"].values == one["period"].values).all()
     for name in ("displacement_max", "acceleration_min", "transmitted_force_max"):
-        mine = found[name].values.reshape(one[name].shape)
+        mine = sweep[name].values.reshape(one[name].shape)
         scale = np.abs(one[name].values[settled]).max()
         np.testing.assert_allclose(
             mine[settled], one[name].values[settled], rtol=0, atol=1e-12 * scale
         )
     for side in ("right", "left"):
         for name in ("impacts", "peak_force", "peak_impulse"):
-            mine = found[name].sel(stop=side).values
+            mine = sweep[name].sel(stop=side).values
             theirs = one[name].sel(stop=side).values
             np.testing.assert_allclose(mine[settled], theirs[settled], rtol=1e-11, atol=1e-12)
-    assert (found["impacts"].values[settled] > 0).any()
+    assert (sweep["impacts"].values[settled] > 0).any()
 
 
 def test_a_sweep_goes_on_from_a_section() -> None:
     rig = vi.Rig(frame(0.01), vi.Harmonic("1 m/s2", 1.0))
-    found = vi.sweep(rig, [0.8, 0.9], "forward")
-    assert found["displacement_max"].dims == ("direction", "frequency", "mass")
-    assert found["peak_force"].sel(stop="right").dims == ("direction", "frequency")
-    start = found["section"].isel(direction=0, frequency=1)
+    sweep = vi.sweep(rig, [0.8, 0.9], "forward")
+    assert sweep["displacement_max"].dims == ("direction", "frequency", "mass")
+    assert sweep["peak_force"].sel(stop="right").dims == ("direction", "frequency")
+    start = sweep["section"].isel(direction=0, frequency=1)
     again = vi.sweep(rig, [0.9], "forward", start=start)
-    assert int(again["cycles"].sum()) < int(found["cycles"].sel(frequency=0.9).sum())
+    assert int(again["cycles"].sum()) < int(sweep["cycles"].sel(frequency=0.9).sum())
     np.testing.assert_allclose(
-        again["displacement_max"].values[0, 0], found["displacement_max"].values[0, 1], rtol=1e-11
+        again["displacement_max"].values[0, 0], sweep["displacement_max"].values[0, 1], rtol=1e-11
     )
 
 
@@ -131,12 +131,12 @@ def test_many_assemblies_are_swept_as_one_at_a_time() -> None:
     rigs = {
         name: vi.Rig(frame(gap=gap), "1 m/s2") for name, gap in (("near", 0.008), ("far", 0.016))
     }
-    found = vi.sweeps(rigs, frequencies)
-    assert found["displacement_max"].dims == ("rig", "direction", "frequency", "mass")
+    sweeps = vi.sweeps(rigs, frequencies)
+    assert sweeps["displacement_max"].dims == ("rig", "direction", "frequency", "mass")
     for name, rig in rigs.items():
         alone = vi.sweep(rig, frequencies)
         for variable in alone.data_vars:
-            np.testing.assert_array_equal(found[variable].sel(rig=name), alone[variable])
+            np.testing.assert_array_equal(sweeps[variable].sel(rig=name), alone[variable])
     other = vi.Rig(vi.chain([1.0], [30.0], 0.05), "1 m/s2")
     with pytest.raises(vi.InputError, match=r"^rigs\['1'\]: its mass names are floor_1, not"):
         vi.sweeps([rigs["near"], other], frequencies)

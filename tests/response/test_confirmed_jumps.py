@@ -37,28 +37,26 @@ class TestSeveralMasses:
         path = study("frame")
         data = vi.sweep(path, grid(0.2, 0.34, step))
         assert len(mass_steps(data).jumps) == suggested
-        found = confirmed_mass_jumps(path, data)
-        assert found.jumps == found.steep == ()
+        sure = confirmed_mass_jumps(path, data)
+        assert sure.jumps == sure.steep == ()
 
     @pytest.mark.parametrize("directions", [("forward",), ("backward",), ("forward", "backward")])
     def test_jumps_remain(self, study, directions):
         path = study("neighbours")
         data = vi.sweep(path, grid(1.5, 2.7, 0.1), directions)
-        found = confirmed_mass_jumps(path, data)
+        sure = confirmed_mass_jumps(path, data)
         known = {"forward": (2.4, 2.5, False), "backward": (2.4, 2.3, True)}
-        assert [(one.before, one.after, one.upward) for one in found.jumps] == [
+        assert [(one.before, one.after, one.upward) for one in sure.jumps] == [
             known[direction] for direction in directions
         ]
-        assert found.steep == ()
+        assert sure.steep == ()
 
     def test_what_does_not_settle_is_steep(self, study):
         path = study("frame")
         data = vi.sweep(path, grid(0.2, 0.8, 0.02), ["forward"])
-        found = confirmed_mass_jumps(path, data)
-        assert found.jumps == ()
-        assert [(one.before, one.after, one.settled) for one in found.steep] == [
-            (0.74, 0.76, False)
-        ]
+        sure = confirmed_mass_jumps(path, data)
+        assert sure.jumps == ()
+        assert [(one.before, one.after, one.settled) for one in sure.steep] == [(0.74, 0.76, False)]
 
     def test_the_curve_that_shows_a_jump_says_whether_it_goes_up(self):
         f = np.array(grid(1.0, 2.0, 0.1))
@@ -85,29 +83,32 @@ class TestOneMass:
     @pytest.mark.parametrize("step", [0.1, 0.01])
     def test_a_jump_of_one_direction_alone_remains(self, direction, step):
         data = swept("B2-G1-A3", 0.5, 5, step, "identified").sel(direction=[direction])
-        found = features(data)
-        assert len(found.jumps) == 1
-        assert confirm_jumps(vi.laboratory.case("B2-G1-A3", "identified"), data, found) == found
+        curve_features = features(data)
+        assert len(curve_features.jumps) == 1
+        assert (
+            confirm_jumps(vi.laboratory.case("B2-G1-A3", "identified"), data, curve_features)
+            == curve_features
+        )
 
     def test_hysteresis_within_a_step(self):
         """Both directions jump between the same two frequencies: 1.293 and 1.3 Hz are its ends."""
         code = "B2-G4-A1"
         data = swept(code, 1.17, 1.44, 0.03)
-        found = features(data)
-        assert [one.frequency for one in found.jumps] == pytest.approx([1.305, 1.305])
-        assert found.hysteresis == ()
-        assert confirm_jumps(code, data, found).jumps == found.jumps
+        curve_features = features(data)
+        assert [one.frequency for one in curve_features.jumps] == pytest.approx([1.305, 1.305])
+        assert curve_features.hysteresis == ()
+        assert confirm_jumps(code, data, curve_features).jumps == curve_features.jumps
 
     def test_grazing_within_a_step_is_no_jump(self):
         """The branch rises as a square root, to three times its height within one step."""
         code = "B4-G2-A1"
         data = swept(code, 0.5, 1.3, 0.1)
-        found = features(data)
-        assert (0.9, 1.0) in [(one.before, one.after) for one in found.jumps]
+        curve_features = features(data)
+        assert (0.9, 1.0) in [(one.before, one.after) for one in curve_features.jumps]
         assert not features(swept(code, 0.9, 0.98, 0.001)).jumps
-        sure = confirm_jumps(code, data, found)
+        sure = confirm_jumps(code, data, curve_features)
         assert (0.9, 1.0) not in [(one.before, one.after) for one in sure.jumps]
-        assert set(sure.jumps + sure.steep) <= set(found.jumps)
+        assert set(sure.jumps + sure.steep) <= set(curve_features.jumps)
 
     def test_the_curve_that_shows_a_jump_says_whether_it_goes_up(self):
         f = np.array(grid(1.0, 2.0, 0.1))

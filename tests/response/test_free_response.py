@@ -17,11 +17,11 @@ SHAKEN = vi.Harmonic(0.3, 0.2)
 def test_a_vanishing_cubic_is_a_linear_isolator() -> None:
     rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, 0.2, 1e-12))
     frequencies = np.linspace(0.08, 0.3, 12)
-    found = swept_flight(vi.Rig(rig, SHAKEN), frequencies, np.full(12, 0.3))
+    excursions = swept_flight(vi.Rig(rig, SHAKEN), frequencies, np.full(12, 0.3))
     b = math.tau * frequencies
     gain = 1.0 / np.hypot(1.0 - b**2, 0.2 * b)
-    np.testing.assert_allclose(found[0], 0.6 * gain, rtol=1e-7)
-    np.testing.assert_allclose(found[1], 0.6 * gain * np.hypot(1.0, 0.2 * b), rtol=1e-7)
+    np.testing.assert_allclose(excursions[0], 0.6 * gain, rtol=1e-7)
+    np.testing.assert_allclose(excursions[1], 0.6 * gain * np.hypot(1.0, 0.2 * b), rtol=1e-7)
     swing, _ = largest_flight(vi.Rig(rig, SHAKEN))
     peak = 0.6 / (0.2 * math.sqrt(1.0 - 0.2**2 / 4.0))
     assert swing == pytest.approx(peak, rel=1e-4)
@@ -32,11 +32,11 @@ def test_a_softening_fold_is_swept_from_above() -> None:
     """Backward, a softening resonance is climbed to its top, below the natural frequency."""
     rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, 0.1, -0.02), vi.Bumper(10.0, 0.0, 9.0))
     frequencies = np.linspace(0.1, 0.2, 41)
-    found = swept_flight(vi.Rig(rig, vi.Harmonic(0.2, 0.2)), frequencies, np.full(41, 0.2))
-    top = frequencies[np.nanargmax(found[0])]
+    excursions = swept_flight(vi.Rig(rig, vi.Harmonic(0.2, 0.2)), frequencies, np.full(41, 0.2))
+    top = frequencies[np.nanargmax(excursions[0])]
     assert top < 0.155 < 1.0 / math.tau
     swing, acceleration = largest_flight(vi.Rig(rig, vi.Harmonic(0.2, 0.2)))
-    assert swing >= np.nanmax(found[0]) * (1.0 - 1e-6)
+    assert swing >= np.nanmax(excursions[0]) * (1.0 - 1e-6)
     assert acceleration > 0.0
 
 
@@ -92,7 +92,7 @@ def test_what_settles_slowly_is_found_without_the_wait() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(6.0, 0.03, damping_exponent=3.0))
     shaken = vi.Harmonic(1.0, 0.3)
     frequency = 4.0 * rig.natural_frequency
-    found = swept_flight(vi.Rig(rig, shaken), np.array([frequency]), np.array([1.0]))
+    excursions = swept_flight(vi.Rig(rig, shaken), np.array([frequency]), np.array([1.0]))
     orbit = vi.orbit(vi.Rig(rig, shaken.replace(frequency=frequency)))
     expected = float(orbit["displacement_max"] - orbit["displacement_min"])
-    assert found[0, 0] == pytest.approx(expected, rel=1e-9)
+    assert excursions[0, 0] == pytest.approx(expected, rel=1e-9)

@@ -51,12 +51,12 @@ ROUGH = vi.Record(np.random.default_rng(7).uniform(-6.0, 6.0, 41), 0.125)
 def test_no_energy_is_lost_count_of(isolator: str, stops: str, shaken: object) -> None:
     oscillator = rig(isolator, stops)
     data = followed(oscillator, shaken)
-    found = vi.totals(data)
+    totals = vi.totals(data)
     change = stored(oscillator, data, -1) - stored(oscillator, data, 0)
-    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
-    scale = float(found["total_isolator"] + found["total_bumpers"])
-    assert float(found["total_isolator"]) > 0.01
-    assert float(found["total_bumpers"]) > 0.01
+    balance = totals["total_supplied"] - totals["total_isolator"] - totals["total_bumpers"]
+    scale = float(totals["total_isolator"] + totals["total_bumpers"])
+    assert float(totals["total_isolator"]) > 0.01
+    assert float(totals["total_bumpers"]) > 0.01
     assert float(balance) == pytest.approx(change, abs=1e-11 * scale)
 
 
@@ -132,12 +132,14 @@ def test_a_steady_motion_has_its_lines_and_its_balance(isolator: str, stops: str
         float(motion[f"energy_{one}"]) for one in ("supplied", "isolator", "bumpers")
     )
     assert supplied == pytest.approx(isolated + bumpers, rel=1e-8)
-    found = vi.fourier_spectrum(motion, 6)
+    spectrum = vi.fourier_spectrum(motion, 6)
     dense = vi.simulate(vi.Rig(oscillator, SHAKEN), n, motion["final_state"], samples=8192)
     for name, near in (("displacement", 1e-6), ("velocity", 1e-5), ("acceleration", 1e-3)):
         values = dense[name].values[:-1]
         lines = 2.0 * np.fft.rfft(values)[: 6 * n + 1] / len(values)
         lines[0] /= 2.0
-        told = found[f"{name}_amplitude"].values * np.exp(1j * found[f"{name}_phase"].values)
-        assert np.abs(told - lines).max() < near * np.abs(lines).max()
+        amplitudes = spectrum[f"{name}_amplitude"].values * np.exp(
+            1j * spectrum[f"{name}_phase"].values
+        )
+        assert np.abs(amplitudes - lines).max() < near * np.abs(lines).max()
     assert math.isfinite(float(motion["exponents"][0]))

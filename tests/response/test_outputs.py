@@ -94,10 +94,10 @@ def test_each_frequency_has_its_amplitude():
 
 
 def test_progress_counts_holds_and_then_their_outputs():
-    told = []
-    vi.sweep(FREE, GRID, outputs={"top": "max(velocity)"}, progress=lambda *n: told.append(n))
-    assert told[-1] == (12, 12)
-    assert told == sorted(told)
+    counts = []
+    vi.sweep(FREE, GRID, outputs={"top": "max(velocity)"}, progress=lambda *n: counts.append(n))
+    assert counts[-1] == (12, 12)
+    assert counts == sorted(counts)
 
 
 def test_files_keep_outputs(tmp_path):
@@ -252,19 +252,19 @@ def test_outputs_of_several_masses_are_those_of_their_steady_motions(law):
     }
     assert expected["push"] > 0.0
     for name, value in expected.items():
-        for found in (swept[name][0, 1], several[name][1, 0, 1], diagram[name][0, 1]):
-            assert float(found) == pytest.approx(value, rel=1e-6)
+        for output in (swept[name][0, 1], several[name][1, 0, 1], diagram[name][0, 1]):
+            assert float(output) == pytest.approx(value, rel=1e-6)
 
 
 def test_outputs_of_branches_of_several_masses():
     rig = pounding(LAWS["linear"])
     branch = vi.branch(rig, vary={"frequency": (1.65, 1.75)}, outputs={"push": OWN["push"]})
     at = int(np.argmin(abs(branch["frequency"].values - 1.7)))
-    found = branch.isel(point=at)
-    expected = vi.orbit(rig, found["section"], frequency=float(found["frequency"]))[
+    point = branch.isel(point=at)
+    expected = vi.orbit(rig, point["section"], frequency=float(point["frequency"]))[
         "contact_force"
     ].max()
-    assert float(found["push"]) == pytest.approx(float(expected), rel=1e-9)
+    assert float(point["push"]) == pytest.approx(float(expected), rel=1e-9)
 
 
 def test_names_that_several_masses_have_not():

@@ -38,8 +38,8 @@ FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was c
     ],
 )
 def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
-    told = rf"^gap: 250 m is \d+.* times the largest {whose}; is 250 mm meant\?$"
-    with pytest.warns(vi.InputWarning, match=told) as warned:
+    message = rf"^gap: 250 m is \d+.* times the largest {whose}; is 250 mm meant\?$"
+    with pytest.warns(vi.InputWarning, match=message) as warned:
         data = of(rig.replace(right=WALL))
     assert f"gap: {data.attrs['notes']}" == str(warned[0].message)
     assert warned[0].filename == __file__
@@ -51,8 +51,8 @@ def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
 def test_a_stop_of_millinewtons_is_doubted():
     rig = RIG.replace(right=vi.Bumper("3 mN/m", 0.0, "5 mm"))
     spring = rig.isolator.stiffness
-    told = rf"^stiffness of a stop: 3 mN/m is {0.003 / spring:.3g} times .*; is 3 MN/m meant\?$"
-    with pytest.warns(vi.InputWarning, match=told) as warned:
+    message = rf"^stiffness of a stop: 3 mN/m is {0.003 / spring:.3g} times .*; is 3 MN/m meant\?$"
+    with pytest.warns(vi.InputWarning, match=message) as warned:
         data = vi.sweep(vi.Rig(rig, "0.05 g"), [1.0])
     assert "3 MN/m" in data.attrs["notes"]
     assert warned[0].filename == __file__
@@ -62,8 +62,8 @@ def test_a_stop_of_millinewtons_is_doubted():
 
 
 def test_a_damping_ratio_of_percent_is_doubted():
-    told = r"damping_ratio: 15 is 15 times the critical damping; did you mean 15 %\?"
-    with pytest.warns(vi.InputWarning, match=f"^{told}$"):
+    message = r"damping_ratio: 15 is 15 times the critical damping; did you mean 15 %\?"
+    with pytest.warns(vi.InputWarning, match=f"^{message}$"):
         made = vi.Isolator.from_period("5000 t", "2.5 s", 15)
     assert vi.Oscillator("5000 t", made).damping_ratio == pytest.approx(15.0)
     with pytest.warns(vi.InputWarning, match=r"^vary\['damping_ratio'\]: 10 is 10 times"):

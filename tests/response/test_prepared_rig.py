@@ -26,9 +26,9 @@ def test_it_is_where_the_simulation_is():
     status, later = ENGINE.propagate(state, 7.25)
     simulated = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 7.25, vi.State(1e-3, 0.1), samples=0)
     assert status is Status.DONE
-    found = state_from(later, SHAKEN.phase)
-    assert found.displacement == float(simulated["final_state"].sel(component="displacement"))
-    assert found.velocity == float(simulated["final_state"].sel(component="velocity"))
+    end = state_from(later, SHAKEN.phase)
+    assert end.displacement == float(simulated["final_state"].sel(component="displacement"))
+    assert end.velocity == float(simulated["final_state"].sel(component="velocity"))
     np.testing.assert_array_equal(state, start())  # not written to
 
 

@@ -20,48 +20,52 @@ from vibroimpact.response.resonance import (
 )
 
 
-def brackets(found: tuple[Jump, ...], direction: str) -> list[tuple[float, float, str]]:
+def brackets(jump_list: tuple[Jump, ...], direction: str) -> list[tuple[float, float, str]]:
     return [
-        (j.before, j.after, "up" if j.upward else "down") for j in found if j.direction == direction
+        (j.before, j.after, "up" if j.upward else "down")
+        for j in jump_list
+        if j.direction == direction
     ]
 
 
-def secondary(found: Features, direction: str, curve: str = "eta_a") -> list[float]:
+def secondary(curve_features: Features, direction: str, curve: str = "eta_a") -> list[float]:
     return [
         p.frequency
-        for p in found.peaks
+        for p in curve_features.peaks
         if (p.direction, p.curve, p.primary) == (direction, curve, False)
     ]
 
 
 class TestPublishedRig:
     def test_secondary_resonance_and_right_hysteresis(self):
-        found = features(swept("B2-G1-A3", 0.5, 5, 0.01, "identified"))
-        assert brackets(found.jumps, "forward") == [(2.65, 2.66, "down")]
-        assert brackets(found.jumps, "backward") == [(1.68, 1.67, "up")]
-        assert found.hysteresis == (Hysteresis("right", 1.68, 2.65, 1.67, 2.66, True),)
-        assert found.hysteresis[0].ends == pytest.approx((1.675, 2.655))
+        curve_features = features(swept("B2-G1-A3", 0.5, 5, 0.01, "identified"))
+        assert brackets(curve_features.jumps, "forward") == [(2.65, 2.66, "down")]
+        assert brackets(curve_features.jumps, "backward") == [(1.68, 1.67, "up")]
+        assert curve_features.hysteresis == (Hysteresis("right", 1.68, 2.65, 1.67, 2.66, True),)
+        assert curve_features.hysteresis[0].ends == pytest.approx((1.675, 2.655))
         for direction in ("forward", "backward"):
-            assert secondary(found, direction) == [0.57]
-        assert primary(found, "forward") == 2.63
-        assert primary(found, "backward") == 1.67
-        assert found.unsettled == ()
-        assert [(r.direction, r.low, r.high) for r in found.contact] == [
+            assert secondary(curve_features, direction) == [0.57]
+        assert primary(curve_features, "forward") == 2.63
+        assert primary(curve_features, "backward") == 1.67
+        assert curve_features.unsettled == ()
+        assert [(r.direction, r.low, r.high) for r in curve_features.contact] == [
             ("forward", 0.5, 2.65),
             ("backward", 0.5, 1.67),
         ]
 
     def test_the_same_on_the_coarse_grid_of_the_tests(self):
-        found = features(swept("B2-G1-A3", 0.5, 5, 0.1, "identified"))
-        assert brackets(found.jumps, "forward") == [(2.6, 2.7, "down")]
-        assert brackets(found.jumps, "backward") == [(1.8, 1.7, "up")]
-        assert secondary(found, "forward") == [0.6]
+        curve_features = features(swept("B2-G1-A3", 0.5, 5, 0.1, "identified"))
+        assert brackets(curve_features.jumps, "forward") == [(2.6, 2.7, "down")]
+        assert brackets(curve_features.jumps, "backward") == [(1.8, 1.7, "up")]
+        assert secondary(curve_features, "forward") == [0.6]
 
     def test_a_fine_sweep_resolves_the_small_left_hysteresis(self):
-        found = features(swept("B2-G1-A3", 0.5, 0.62, 0.001, "identified"))
-        assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("left", 0.561, 0.567)]
-        assert brackets(found.jumps, "forward") == [(0.567, 0.568, "up")]
-        assert brackets(found.jumps, "backward") == [(0.561, 0.56, "down")]
+        curve_features = features(swept("B2-G1-A3", 0.5, 0.62, 0.001, "identified"))
+        assert [(h.side, h.low, h.high) for h in curve_features.hysteresis] == [
+            ("left", 0.561, 0.567)
+        ]
+        assert brackets(curve_features.jumps, "forward") == [(0.567, 0.568, "up")]
+        assert brackets(curve_features.jumps, "backward") == [(0.561, 0.56, "down")]
 
     @pytest.mark.parametrize("direction", ["forward", "backward"])
     @pytest.mark.parametrize("step", [0.1, 0.01])
@@ -72,51 +76,57 @@ class TestPublishedRig:
         assert hysteresis(alone) == ()
 
     def test_scenario_with_the_primary_resonance_only(self):
-        found = features(swept("B2-G2-A2", 0.5, 5, 0.01, "identified"))
-        assert brackets(found.jumps, "forward") == [(2.11, 2.12, "down")]
-        assert brackets(found.jumps, "backward") == [(1.53, 1.52, "up")]
-        assert secondary(found, "forward") == secondary(found, "backward") == []
-        assert found.contact[0].low == 0.71
+        curve_features = features(swept("B2-G2-A2", 0.5, 5, 0.01, "identified"))
+        assert brackets(curve_features.jumps, "forward") == [(2.11, 2.12, "down")]
+        assert brackets(curve_features.jumps, "backward") == [(1.53, 1.52, "up")]
+        assert secondary(curve_features, "forward") == secondary(curve_features, "backward") == []
+        assert curve_features.contact[0].low == 0.71
 
     def test_left_hysteresis_and_motions_that_do_not_settle(self):
-        found = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
-        left = [h for h in found.hysteresis if h.side == "left"]
+        curve_features = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
+        left = [h for h in curve_features.hysteresis if h.side == "left"]
         assert (left[-1].low, left[-1].high) == (0.68, 0.72)
-        assert [(h.low, h.high) for h in found.hysteresis if h.side == "right"] == [(1.91, 3.29)]
+        assert [(h.low, h.high) for h in curve_features.hysteresis if h.side == "right"] == [
+            (1.91, 3.29)
+        ]
         # Left hysteresis: the forward sweep jumps up at its upper end, the backward sweep
         # down at its lower end.
-        assert (0.72, 0.73, "up") in brackets(found.jumps, "forward")
-        assert (0.68, 0.67, "down") in brackets(found.jumps, "backward")
-        assert all(j.settled for j in found.jumps)
+        assert (0.72, 0.73, "up") in brackets(curve_features.jumps, "forward")
+        assert (0.68, 0.67, "down") in brackets(curve_features.jumps, "backward")
+        assert all(j.settled for j in curve_features.jumps)
         for direction in ("forward", "backward"):
-            loose = [r for r in found.unsettled if r.direction == direction]
+            loose = [r for r in curve_features.unsettled if r.direction == direction]
             assert any(r.low <= 1.02 and r.high >= 1.1 for r in loose)
             assert all(r.low > 0.99 and r.high < 1.27 for r in loose)
 
     def test_a_backward_secondary_resonance_may_be_the_higher_one(self):
-        found = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
-        heights = {p.frequency: p.value for p in found.peaks if p[:2] == ("backward", "eta_a")}
+        curve_features = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
+        heights = {
+            p.frequency: p.value for p in curve_features.peaks if p[:2] == ("backward", "eta_a")
+        }
         assert heights[0.68] > heights[1.9]
-        assert primary(found, "backward") == 1.9
-        assert primary(found, "forward") == 3.28
+        assert primary(curve_features, "backward") == 1.9
+        assert primary(curve_features, "forward") == 3.28
 
     @pytest.mark.parametrize(
         ("code", "low", "high"), [("B2-G4-A1", 1.293, 1.3), ("B1-G1-A1", 1.538, 1.662)]
     )
     def test_narrow_right_hysteresis(self, code, low, high):
-        found = features(swept(code, 1.2, 1.8, 0.001))
-        assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("right", low, high)]
-        assert brackets(found.jumps, "forward") == [(high, round(high + 0.001, 9), "down")]
-        assert brackets(found.jumps, "backward") == [(low, round(low - 0.001, 9), "up")]
+        curve_features = features(swept(code, 1.2, 1.8, 0.001))
+        assert [(h.side, h.low, h.high) for h in curve_features.hysteresis] == [
+            ("right", low, high)
+        ]
+        assert brackets(curve_features.jumps, "forward") == [(high, round(high + 0.001, 9), "down")]
+        assert brackets(curve_features.jumps, "backward") == [(low, round(low - 0.001, 9), "up")]
 
     @pytest.mark.parametrize("code", ["B2-Ginf-A3", "B3-0mm-A3"])
     @pytest.mark.parametrize("step", [0.1, 0.01, 0.001])
     def test_no_jump_on_a_smooth_resonance(self, code, step):
         stop = 8.0 if step > 0.005 else 2.0
-        found = features(swept(code, 0.3, stop, step))
-        assert found.jumps == ()
-        assert found.hysteresis == ()
-        assert found.unsettled == ()
+        curve_features = features(swept(code, 0.3, stop, step))
+        assert curve_features.jumps == ()
+        assert curve_features.hysteresis == ()
+        assert curve_features.unsettled == ()
 
     @pytest.mark.parametrize("step", [0.1, 0.03, 0.01])
     @pytest.mark.parametrize("damping_ratio", [0.003, 0.03, 0.9])
@@ -142,10 +152,10 @@ class TestPublishedRig:
         data = vi.sweep(
             vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.9, 1.1, 0.01)], max_cycles=300
         )
-        found = features(data)
-        assert found.unsettled != ()
-        assert not any(j.settled for j in found.jumps)
-        assert not any(h.settled for h in found.hysteresis)
+        curve_features = features(data)
+        assert curve_features.unsettled != ()
+        assert not any(j.settled for j in curve_features.jumps)
+        assert not any(h.settled for h in curve_features.hysteresis)
 
 
 class TestHysteresis:
@@ -185,21 +195,21 @@ class TestHysteresis:
         backward = np.where(settled[0], forward, 1.09)
         assert hysteresis(made(self.f, forward, backward, settled=settled)) == ()
         backward = np.where(settled[0], forward, 1.2)
-        (found,) = hysteresis(made(self.f, forward, backward, settled=settled))
-        assert not found.settled
+        (only,) = hysteresis(made(self.f, forward, backward, settled=settled))
+        assert not only.settled
 
     def test_two_sides_beside_each_other_are_two_ranges(self):
         forward, backward = np.ones(11), np.ones(11)
         backward[3:5], forward[5:8] = 2.0, 2.0
-        found = hysteresis(made(self.f, forward, backward))
-        assert [(h.side, h.low, h.high) for h in found] == [("left", 1.3, 1.4), ("right", 1.5, 1.7)]
+        sides = hysteresis(made(self.f, forward, backward))
+        assert [(h.side, h.low, h.high) for h in sides] == [("left", 1.3, 1.4), ("right", 1.5, 1.7)]
 
     def test_absent_values_are_left_out(self):
         forward, backward = np.ones(11), np.ones(11)
         forward[4:7] = 1.5
         backward[5] = np.nan
-        (found,) = hysteresis(made(self.f, forward, backward))
-        assert (found.low, found.high) == (1.4, 1.6)
+        (only,) = hysteresis(made(self.f, forward, backward))
+        assert (only.low, only.high) == (1.4, 1.6)
 
 
 class TestBreaks:
@@ -227,11 +237,11 @@ class TestBreaks:
     def test_both_directions_across_a_hysteresis_narrower_than_a_step(self):
         f = grid(1, 2, 0.1)
         curve = np.where(np.array(f) < 1.45, 1.0, 2.0) + 0.001 * np.array(f)
-        found = jumps(made(f, curve, curve))
-        assert brackets(found, "forward") == [(1.4, 1.5, "up")]
-        assert brackets(found, "backward") == [(1.5, 1.4, "down")]
-        assert found[0].eta_a == pytest.approx((1.0014, 2.0015))
-        assert found[1].eta_a == pytest.approx((2.0015, 1.0014))
+        both = jumps(made(f, curve, curve))
+        assert brackets(both, "forward") == [(1.4, 1.5, "up")]
+        assert brackets(both, "backward") == [(1.5, 1.4, "down")]
+        assert both[0].eta_a == pytest.approx((1.0014, 2.0015))
+        assert both[1].eta_a == pytest.approx((2.0015, 1.0014))
 
     def test_unsettled_curve_may_wander(self):
         f = grid(1, 2, 0.1)
@@ -249,13 +259,13 @@ def test_ranges_are_runs():
     f = grid(1, 2, 0.1)
     data = made(f, np.ones(11))
     where = data["eta_a"].copy(data=np.isin(np.arange(11), [0, 1, 5, 10])[np.newaxis])
-    found = ranges(data, where)
-    assert [r[1:] for r in found] == [(1.0, 1.1, 2), (1.5, 1.5, 1), (2.0, 2.0, 1)]
+    runs = ranges(data, where)
+    assert [r[1:] for r in runs] == [(1.0, 1.1, 2), (1.5, 1.5, 1), (2.0, 2.0, 1)]
 
 
 def test_jumps_are_in_the_order_of_their_sweep():
-    found = jumps(swept("B3-10mm-A3", 0.3, 4, 0.01))
+    every = jumps(swept("B3-10mm-A3", 0.3, 4, 0.01))
     for direction, rising in (("forward", True), ("backward", False)):
-        places = [j.frequency for j in found if j.direction == direction]
+        places = [j.frequency for j in every if j.direction == direction]
         assert len(places) > 2
         assert all((a < b) == rising for a, b in pairwise(places))

@@ -21,8 +21,8 @@ PERIODS = [0.0, 0.1, 0.5, 2.0]
 
 
 def test_dims_units_and_what_it_says_of_itself(tmp_path):
-    found = vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05])
-    assert dict(found.sizes) == {"damping_ratio": 2, "natural_period": 4}
+    spectrum = vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05])
+    assert dict(spectrum.sizes) == {"damping_ratio": 2, "natural_period": 4}
     units = {
         "natural_period": "s",
         "spectral_displacement": "m",
@@ -32,14 +32,14 @@ def test_dims_units_and_what_it_says_of_itself(tmp_path):
         "pseudo_acceleration": "m s-2",
     }
     for name, unit in units.items():
-        assert found[name].attrs["units"] == unit
-        assert found[name].attrs["long_name"]
-    (about,) = json.loads(found.attrs["parameters"])["record"]
+        assert spectrum[name].attrs["units"] == unit
+        assert spectrum[name].attrs["long_name"]
+    (about,) = json.loads(spectrum.attrs["parameters"])["record"]
     assert about == {"samples": 400, "step": 0.02, "peak": RECORD.peak}
-    assert found.attrs["created_by"] == "vibroimpact.response_spectrum"
-    path = vi.save(found, tmp_path / "spectrum.nc")
-    assert vi.load(path).equals(found)
-    table = vi.to_table(found)
+    assert spectrum.attrs["created_by"] == "vibroimpact.response_spectrum"
+    path = vi.save(spectrum, tmp_path / "spectrum.nc")
+    assert vi.load(path).equals(spectrum)
+    table = vi.to_table(spectrum)
     assert list(table.columns[:2]) == ["damping_ratio", "natural_period"]
     assert len(table) == 8
 
@@ -54,9 +54,9 @@ def test_single_numbers_have_no_dims():
 
 
 def test_two_components():
-    found = vi.response_spectrum([RECORD, OTHER], PERIODS, [0.0, 0.05])
-    assert found["orientation"].values.tolist() == ["first", "second", "RotD50", "RotD100"]
-    assert found["spectral_displacement"].dims == (
+    spectrum = vi.response_spectrum([RECORD, OTHER], PERIODS, [0.0, 0.05])
+    assert spectrum["orientation"].values.tolist() == ["first", "second", "RotD50", "RotD100"]
+    assert spectrum["spectral_displacement"].dims == (
         "orientation",
         "damping_ratio",
         "natural_period",
@@ -69,10 +69,10 @@ def test_two_components():
         )
         for at in np.arange(180) * (math.pi / 180)
     ]
-    for name in found.data_vars:
+    for name in spectrum.data_vars:
         every = np.array([one[name].values for one in turned])
         expected = [every[0], every[90], np.median(every, axis=0), every.max(axis=0)]
-        np.testing.assert_allclose(found[name], expected, rtol=1e-13, atol=1e-30)
+        np.testing.assert_allclose(spectrum[name], expected, rtol=1e-13, atol=1e-30)
 
 
 def test_components_of_a_motion_along_a_line():
@@ -80,13 +80,13 @@ def test_components_of_a_motion_along_a_line():
     at = math.radians(30)
     pair = (RECORD.scaled(math.cos(at)), RECORD.scaled(math.sin(at)))
     one = vi.response_spectrum(RECORD, PERIODS)
-    found = vi.response_spectrum(pair, PERIODS)
+    spectrum = vi.response_spectrum(pair, PERIODS)
     middle = math.cos(math.radians(45.5)) / 2 + math.cos(math.radians(44.5)) / 2
     half = {"first": math.cos(at), "second": math.sin(at), "RotD100": 1.0, "RotD50": middle}
     for name, share in half.items():
-        for what in found.data_vars:
+        for what in spectrum.data_vars:
             np.testing.assert_allclose(
-                found[what].sel(orientation=name), share * one[what], rtol=2e-4
+                spectrum[what].sel(orientation=name), share * one[what], rtol=2e-4
             )
 
 
@@ -133,17 +133,17 @@ def test_what_is_refused(record, periods, damping, line):
 
 
 def test_a_record_of_nothing():
-    found = vi.response_spectrum(vi.Record([0.0, 0.0, 0.0], 0.1), PERIODS, [0.0, 0.05])
-    for name in found.data_vars:
-        assert (found[name] == 0.0).all()
+    spectrum = vi.response_spectrum(vi.Record([0.0, 0.0, 0.0], 0.1), PERIODS, [0.0, 0.05])
+    for name in spectrum.data_vars:
+        assert (spectrum[name] == 0.0).all()
 
 
 def test_progress_is_told_until_all_is_done():
-    told = []
+    counts = []
     vi.response_spectrum(
-        RECORD, np.geomspace(0.1, 1, 20), [0.0, 0.1], progress=lambda *x: told.append(x)
+        RECORD, np.geomspace(0.1, 1, 20), [0.0, 0.1], progress=lambda *x: counts.append(x)
     )
-    assert told[-1] == (40, 40)
+    assert counts[-1] == (40, 40)
 
 
 @pytest.mark.full
@@ -151,10 +151,10 @@ def test_without_the_compiler_it_is_the_same():
     code = (
         "import numpy as np, vibroimpact as vi\n"
         "values = np.sin(np.arange(12.0))\n"
-        "found = vi.response_spectrum(vi.Record(values, 0.1), [0.05, 0.7], [0.0, 0.2])\n"
-        "print(found['spectral_displacement'].values.ravel().tolist())"
+        "spectrum = vi.response_spectrum(vi.Record(values, 0.1), [0.05, 0.7], [0.0, 0.2])\n"
+        "print(spectrum['spectral_displacement'].values.ravel().tolist())"
     )
-    told = [
+    outputs = [
         subprocess.run(
             [sys.executable, "-W", "error", "-c", code],
             env={**os.environ, "NUMBA_DISABLE_JIT": off},
@@ -164,4 +164,4 @@ def test_without_the_compiler_it_is_the_same():
         ).stdout
         for off in ("0", "1")
     ]
-    np.testing.assert_allclose(json.loads(told[0]), json.loads(told[1]), rtol=1e-13)
+    np.testing.assert_allclose(json.loads(outputs[0]), json.loads(outputs[1]), rtol=1e-13)

@@ -20,17 +20,17 @@ def test_a_motion_that_runs_away() -> None:
     with pytest.warns(RuntimeWarning, match=TOLD):
         data = vi.simulate(vi.Rig(rig, STRONG), 20)
     assert TOLD in data.attrs["message"]
-    found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
-    assert (found["status"] == Status.REVERSED).all()
-    assert found["status"].attrs["flag_meanings"].split()[Status.REVERSED] == "reversed"
+    sweep = vi.sweep(vi.Rig(rig, 2.0), [0.15])
+    assert (sweep["status"] == Status.REVERSED).all()
+    assert sweep["status"].attrs["flag_meanings"].split()[Status.REVERSED] == "reversed"
     with pytest.warns(RuntimeWarning, match=TOLD):
         assert TOLD in vi.steady(vi.Rig(rig, STRONG)).attrs["message"]
 
 
 def test_a_motion_that_runs_away_from_its_only_stop() -> None:
     rig = vi.Oscillator(1.0, SOFT, vi.RigidStop(0.5, 0.2))
-    found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
-    assert (found["status"] == Status.REVERSED).all()
+    sweep = vi.sweep(vi.Rig(rig, 2.0), [0.15])
+    assert (sweep["status"] == Status.REVERSED).all()
 
 
 @pytest.mark.full
@@ -38,9 +38,9 @@ def test_a_motion_that_comes_back() -> None:
     """Values are there, for a stiffer spring further out or a stop bounds it."""
     for rig in (vi.Oscillator(1.0, WELLS), vi.Oscillator(1.0, SOFT, vi.RigidStop(0.5, 1.2))):
         rig = rig.replace(left=rig.right)
-        found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
-        assert (found["status"] == Status.REVERSED).all()
-        assert (found["displacement_max"] > 1.0).all()
+        sweep = vi.sweep(vi.Rig(rig, 2.0), [0.15])
+        assert (sweep["status"] == Status.REVERSED).all()
+        assert (sweep["displacement_max"] > 1.0).all()
         with pytest.warns(RuntimeWarning, match=TOLD):
             data = vi.simulate(vi.Rig(rig, STRONG), 20)
         assert TOLD in data.attrs["message"]
@@ -76,6 +76,6 @@ def test_nothing_known_is_no_reversal() -> None:
 def test_a_motion_that_runs_away_while_it_is_measured() -> None:
     rig = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 1.0, -50.0))
     start = vi.State(0.7128601657875597, 1.7338760758080227)
-    found = vi.sweep(vi.Rig(rig, 3.0), [0.5264547101961601], "forward", start=start, max_cycles=1)
-    assert (found["status"] == Status.REVERSED).all()
-    assert np.isnan(found["displacement_max"]).all()
+    sweep = vi.sweep(vi.Rig(rig, 3.0), [0.5264547101961601], "forward", start=start, max_cycles=1)
+    assert (sweep["status"] == Status.REVERSED).all()
+    assert np.isnan(sweep["displacement_max"]).all()

@@ -30,7 +30,7 @@ def lines(data, name):
 def test_harmonics_against_quadrature(code, frequency):
     """Of the motion by matrix exponentials, phase by phase, at Gauss-Legendre nodes."""
     motion = steady(code, frequency=frequency)
-    found = vi.fourier_spectrum(motion, 20)
+    spectrum = vi.fourier_spectrum(motion, 20)
     case = vi.laboratory.case(code)
     rig, shaken = case.oscillator, vi.Harmonic(case.amplitude, frequency, 0.3)
     omega = shaken.angular_frequency
@@ -54,17 +54,17 @@ def test_harmonics_against_quadrature(code, frequency):
     for name in QUANTITIES:
         expected[name][0] /= 2.0
         size = np.abs(expected[name]).max()
-        np.testing.assert_allclose(lines(found, name), expected[name], atol=1e-10 * size, rtol=0)
-    assert "exact" in found.attrs["method"]
+        np.testing.assert_allclose(lines(spectrum, name), expected[name], atol=1e-10 * size, rtol=0)
+    assert "exact" in spectrum.attrs["method"]
 
 
 def test_the_sum_of_the_lines_is_the_motion():
     motion = steady("B2-G1-A3", frequency=2.0)
-    found = vi.fourier_spectrum(motion, 400)
-    phase = 2.0 * np.pi * np.outer(motion["cycle"].values, found["order"].values)
+    spectrum = vi.fourier_spectrum(motion, 400)
+    phase = 2.0 * np.pi * np.outer(motion["cycle"].values, spectrum["order"].values)
     for name, tolerance in (("displacement", 1e-7), ("velocity", 1e-5)):
         sums = (
-            found[f"{name}_amplitude"].values * np.cos(phase + found[f"{name}_phase"].values)
+            spectrum[f"{name}_amplitude"].values * np.cos(phase + spectrum[f"{name}_phase"].values)
         ).sum(axis=1)
         size = float(np.abs(motion[name]).max())
         np.testing.assert_allclose(sums, motion[name], atol=tolerance * size)
@@ -74,7 +74,7 @@ def test_free_flight_has_a_single_line():
     """Amplitudes and phases of the closed form, everything else rounding."""
     rig = vi.laboratory.case("B2-Ginf-A3").oscillator
     shaken = vi.Harmonic(0.5, 1.3, 0.7)
-    found = vi.fourier_spectrum(vi.steady(vi.Rig(rig, shaken)), 10)
+    spectrum = vi.fourier_spectrum(vi.steady(vi.Rig(rig, shaken)), 10)
     omega = shaken.angular_frequency
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
     # −A sin(ωt + φ) = Re(i A exp(i(ωt + φ)))
@@ -85,7 +85,7 @@ def test_free_flight_has_a_single_line():
         "acceleration": -(k + 1j * c * omega) * u,
     }
     for name, value in expected.items():
-        z = lines(found, name)
+        z = lines(spectrum, name)
         assert abs(z[1] - value) < 1e-13 * abs(value)
         assert np.abs(np.delete(z, 1)).max() < 1e-13 * abs(value)
 
@@ -97,13 +97,13 @@ def test_a_line_at_an_undamped_resonance_of_a_phase():
     frequency = 0.5 / (2.0 * math.pi)
     motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, frequency)))
     assert int(motion["period"]) == 1
-    found = vi.fourier_spectrum(motion, 4)
+    spectrum = vi.fourier_spectrum(motion, 4)
     # Dense samples of one period: the trapezoidal rule, its error bounded by u‴'s jumps.
     dense = vi.simulate(
         vi.Rig(rig, vi.Harmonic(1.0, frequency)), 1, motion["final_state"], samples=4096
     )
     fft = np.fft.rfft(dense["displacement"].values[:-1]) * 2.0 / 4096
-    np.testing.assert_allclose(np.abs(fft[1:5]), found["displacement_amplitude"][1:], rtol=1e-6)
+    np.testing.assert_allclose(np.abs(fft[1:5]), spectrum["displacement_amplitude"][1:], rtol=1e-6)
 
 
 def test_subharmonic_orders():
@@ -113,10 +113,10 @@ def test_subharmonic_orders():
     shaken = vi.Harmonic(0.7 * omega**2, omega / (2.0 * math.pi), math.pi)
     motion = vi.steady(vi.Rig(rig, shaken))
     assert int(motion["period"]) == 5
-    found = vi.fourier_spectrum(motion, 3)
-    np.testing.assert_allclose(found["order"], np.arange(16) / 5)
-    assert float(found["displacement_amplitude"][1]) > 1e-3
-    np.testing.assert_allclose(found["line_frequency"], found["order"] * shaken.frequency)
+    spectrum = vi.fourier_spectrum(motion, 3)
+    np.testing.assert_allclose(spectrum["order"], np.arange(16) / 5)
+    assert float(spectrum["displacement_amplitude"][1]) > 1e-3
+    np.testing.assert_allclose(spectrum["line_frequency"], spectrum["order"] * shaken.frequency)
 
 
 def test_windowed_lines():
@@ -124,16 +124,16 @@ def test_windowed_lines():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), None, None)
     shaken = vi.Harmonic(1.0, math.sqrt(2.0) / (2.0 * math.pi))
     motion = vi.simulate(vi.Rig(rig, shaken), 400, vi.State(0.0, 0.0), samples=32)
-    found = vi.fourier_spectrum(motion, 3)
-    assert "Hann" in found.attrs["method"]
+    spectrum = vi.fourier_spectrum(motion, 3)
+    assert "Hann" in spectrum.attrs["method"]
     # u = a sin ωt + b sin t: a = −1/(1 − 2) = 1, b = −√2.
-    forced = found.sel(order=1.0)
-    own = found["displacement_amplitude"].sel(order=slice(0.6, 0.8))
+    forced = spectrum.sel(order=1.0)
+    own = spectrum["displacement_amplitude"].sel(order=slice(0.6, 0.8))
     assert float(forced["displacement_amplitude"]) == pytest.approx(1.0, rel=1e-3)
     assert float(own.max()) == pytest.approx(math.sqrt(2.0), rel=0.16)  # scalloping, at most 15 %
     assert float(own.order[own.values.argmax()]) == pytest.approx(1.0 / math.sqrt(2.0), abs=2.5e-3)
-    rest = found["displacement_amplitude"].where(
-        (abs(found.order - 1.0) > 0.03) & (abs(found.order - 0.7071) > 0.03)
+    rest = spectrum["displacement_amplitude"].where(
+        (abs(spectrum.order - 1.0) > 0.03) & (abs(spectrum.order - 0.7071) > 0.03)
     )
     assert float(rest.max()) < 2e-3
 

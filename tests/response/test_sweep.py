@@ -114,16 +114,16 @@ class TestDataset:
 
     def test_text_and_progress(self) -> None:
         case = vi.laboratory.case("B2-G1-A3")
-        told: list[tuple[int, int]] = []
+        counts: list[tuple[int, int]] = []
         data = vi.sweep(
             vi.Rig(case.oscillator, "0.05 g"),
             ["500 mHz", "2.5 Hz"],
-            progress=lambda done, total: told.append((done, total)),
+            progress=lambda done, total: counts.append((done, total)),
         )
         plain = vi.sweep(vi.Rig(case.oscillator, 0.05 * 9.80665), [0.5, 2.5])
         xr.testing.assert_equal(data, plain)
-        assert told[-1] == (4, 4)
-        assert sorted(told) == told
+        assert counts[-1] == (4, 4)
+        assert sorted(counts) == counts
 
 
 class TestStepping:
@@ -322,13 +322,13 @@ class TestWrongInput:
     @staticmethod
     def refused(message: str, **arguments: object) -> None:
         case = vi.laboratory.case("B2-G1-A3")
-        given = {"frequencies": [1.0, 2.0], **arguments}
+        options = {"frequencies": [1.0, 2.0], **arguments}
         with pytest.raises(vi.InputError) as caught:
-            vi.sweep(vi.Rig(case.oscillator, given.pop("shaking", case.amplitude)), **given)
-        told = str(caught.value)
-        assert told.startswith(message)
-        assert re.search(r"; .*(use|pass|sort) ?", told)
-        assert "\n" not in told
+            vi.sweep(vi.Rig(case.oscillator, options.pop("shaking", case.amplitude)), **options)
+        text = str(caught.value)
+        assert text.startswith(message)
+        assert re.search(r"; .*(use|pass|sort) ?", text)
+        assert "\n" not in text
 
 
 class TestGivenUp:
@@ -355,8 +355,8 @@ class TestGivenUp:
 def test_behind_a_hold_that_was_given_up_a_preloaded_rig_goes_on_from_its_start(left):
     """u = 0 would be inside its stop."""
     rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), None, left)
-    told = {"directions": "forward", "max_events": 1}
-    both = vi.sweep(vi.Rig(rig, [5.0, 0.5]), [0.5, 1.6], **told)
-    alone = vi.sweep(vi.Rig(rig, 0.5), [1.6], **told)
+    options = {"directions": "forward", "max_events": 1}
+    both = vi.sweep(vi.Rig(rig, [5.0, 0.5]), [0.5, 1.6], **options)
+    alone = vi.sweep(vi.Rig(rig, 0.5), [1.6], **options)
     assert both["status"].values.ravel().tolist() == [2, 0]
     assert both["displacement_max"].values[0, 1] == alone["displacement_max"].values[0, 0]

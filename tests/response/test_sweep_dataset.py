@@ -42,11 +42,11 @@ def held_and_contacts(rig: vi.Oscillator) -> tuple[xr.Dataset, xr.Dataset]:
 @pytest.mark.parametrize("name", [*RIGS, *WALLS])
 def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
     rig = (RIGS | WALLS)[name]
-    held, found = held_and_contacts(rig)
-    assert found.sizes["contact_number"]
+    held, log = held_and_contacts(rig)
+    assert log.sizes["contact_number"]
     for side in held["stop"].values:
-        mine = found["contact_stop"].values == side
-        forces, impulses = (found[f"contact_{what}"].values for what in ("peak_force", "impulse"))
+        mine = log["contact_stop"].values == side
+        forces, impulses = (log[f"contact_{what}"].values for what in ("peak_force", "impulse"))
         force, impulse = held["peak_force"].sel(stop=side), held["peak_impulse"].sel(stop=side)
         if isinstance(getattr(rig, side), vi.RigidStop):
             assert float(force) == np.inf

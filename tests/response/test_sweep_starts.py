@@ -15,8 +15,8 @@ SHAKEN = vi.Harmonic(CASE.amplitude, 2.0, 0.4)
 def test_from_below_on_the_large_motion_from_above_on_the_small_one():
     starts = arrivals(vi.Rig(CASE.oscillator, SHAKEN))
     assert list(starts) == ["forward branch", "backward branch"]
-    found = [vi.steady(vi.Rig(CASE.oscillator, SHAKEN), start, 8) for start in starts.values()]
-    assert [int(motion["impacts"].sel(stop="right")) for motion in found] == [1, 0]
+    motions = [vi.steady(vi.Rig(CASE.oscillator, SHAKEN), start, 8) for start in starts.values()]
+    assert [int(motion["impacts"].sel(stop="right")) for motion in motions] == [1, 0]
     assert {start.phase for start in starts.values()} == {0.4}
 
 

@@ -77,10 +77,10 @@ def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) 
     rig = RIGS[name]
     how = {"tail": 1.3} if isinstance(shaken, vi.Record) else {"cycles": 6}
     data = vi.simulate(vi.Rig(rig, shaken), start=vi.State(0.0, 0.4), **how)
-    found = vi.totals(data)
+    totals = vi.totals(data)
     change = stored(rig, data, -1) - stored(rig, data, 0)
-    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
-    scale = float(found["total_isolator"] + found["total_bumpers"])
+    balance = totals["total_supplied"] - totals["total_isolator"] - totals["total_bumpers"]
+    scale = float(totals["total_isolator"] + totals["total_bumpers"])
     assert scale > 0.01
     assert float(balance) == pytest.approx(change, abs=1e-11 * scale)
 
@@ -126,7 +126,7 @@ def test_the_supplied_energy_is_the_integral_of_the_power(law: str, shaken: str)
         excitation = SHAKINGS[shaken]
         how = {} if isinstance(excitation, vi.Record) else {"cycles": 20}
         data = vi.simulate(vi.Rig(rig, excitation), samples=2000, **how)
-        found = vi.totals(data)
+        totals = vi.totals(data)
         if shaken == "force":
             push = data["applied_force"].values
         else:
@@ -137,7 +137,7 @@ def test_the_supplied_energy_is_the_integral_of_the_power(law: str, shaken: str)
         assert data["touching"].any()
         if law == "rest on a wall":
             assert (data["velocity"].values[1000:] == 0.0).any()
-        assert float(found["total_supplied"]) == pytest.approx(supplied, abs=1e-4 * turnover)
+        assert float(totals["total_supplied"]) == pytest.approx(supplied, abs=1e-4 * turnover)
 
 
 def test_the_energy_supplied_to_a_steady_motion_is_what_is_lost() -> None:
@@ -150,12 +150,12 @@ def test_the_energy_supplied_to_a_steady_motion_is_what_is_lost() -> None:
 def test_those_of_a_steady_motion() -> None:
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)))
-    found = vi.totals(data)
+    totals = vi.totals(data)
     for name in ("displacement_max", "acceleration_min", "eccentricity"):
-        assert float(found[name]) == float(data[name])
+        assert float(totals[name]) == float(data[name])
     cycles = int(data["period"])
     for name in ("supplied", "isolator", "bumpers"):
-        assert float(found[f"total_{name}"]) == cycles * float(data[f"energy_{name}"])
+        assert float(totals[f"total_{name}"]) == cycles * float(data[f"energy_{name}"])
 
 
 def test_no_motion() -> None:
@@ -172,12 +172,12 @@ def test_a_start_into_a_rigid_stop_is_noted():
     rig = vi.Oscillator(2.0, vi.Isolator(5.0, 0.3), vi.RigidStop(0.6, 0.1))
     start = vi.State(0.1, 0.5)
     motion = vi.simulate(vi.Rig(rig, vi.Harmonic(0.2, 0.3)), cycles=3, start=start)
-    found = vi.totals(motion)
-    assert "starts with an impact, from 0.5 to -0.3 m/s" in found.attrs["notes"]
+    totals = vi.totals(motion)
+    assert "starts with an impact, from 0.5 to -0.3 m/s" in totals.attrs["notes"]
     kinetic = 0.5 * 2.0 * (float(motion["velocity"][-1]) ** 2 - 0.5**2)
     spring = 0.5 * 5.0 * (float(motion["displacement"][-1]) ** 2 - 0.1**2)
-    lost = float(found["total_isolator"] + found["total_bumpers"])
-    assert float(found["total_supplied"]) == pytest.approx(kinetic + spring + lost, abs=1e-12)
+    lost = float(totals["total_isolator"] + totals["total_bumpers"])
+    assert float(totals["total_supplied"]) == pytest.approx(kinetic + spring + lost, abs=1e-12)
     behind = vi.simulate(vi.Rig(rig, vi.Harmonic(0.2, 0.3)), cycles=3, start=vi.State(0.1, -0.3))
     assert "notes" not in vi.totals(behind).attrs
 
@@ -193,11 +193,11 @@ def test_the_totals_of_a_chaotic_flight_are_those_of_the_motion_recorded():
         of="displacement",
     )
     motion = vi.simulate(vi.Rig(vi.Oscillator(1.0, law), shaken), cycles=20.3, samples=4096)
-    found = vi.totals(motion)
+    totals = vi.totals(motion)
     time, v = motion["time"].values, motion["velocity"].values
     pull = motion["base_acceleration"].values
-    assert float(found["total_supplied"]) == pytest.approx(simpson(-pull * v, x=time), abs=1e-6)
-    assert float(found["total_isolator"]) == pytest.approx(
+    assert float(totals["total_supplied"]) == pytest.approx(simpson(-pull * v, x=time), abs=1e-6)
+    assert float(totals["total_isolator"]) == pytest.approx(
         simpson(law.damping * v**2, x=time), abs=1e-6
     )
 
@@ -210,12 +210,12 @@ def test_those_of_a_motion_that_is_cut_at_its_end(shaken: vi.Harmonic | vi.Recor
     motion = vi.simulate(vi.Rig(BUMPERS, shaken), samples=48, **how)
     count = int(end * motion.sizes["time"])
     part = motion.isel(time=slice(count))
-    found = vi.totals(part)
+    totals = vi.totals(part)
     for one in MOTIONS:
-        high, low = (float(found[f"{one}_{name}"]) for name in ("max", "min"))
+        high, low = (float(totals[f"{one}_{name}"]) for name in ("max", "min"))
         assert high == pytest.approx(float(part[one].max()), abs=3e-2 * (high - low))
         assert low == pytest.approx(float(part[one].min()), abs=3e-2 * (high - low))
-    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
+    balance = totals["total_supplied"] - totals["total_isolator"] - totals["total_bumpers"]
     change = stored(BUMPERS, part, -1) - stored(BUMPERS, part, 0)
     assert float(balance) == pytest.approx(change, abs=1e-11)
     log = vi.contacts(part)
@@ -228,8 +228,8 @@ def test_those_of_what_is_left_without_the_first_samples(first: int):
     shaken = vi.Harmonic(3.0, 0.4, 1.1)
     motion = vi.simulate(vi.Rig(BUMPERS, shaken), 6, samples=48)
     part = motion.isel(time=slice(first, None))
-    found = vi.totals(part)
-    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
+    totals = vi.totals(part)
+    balance = totals["total_supplied"] - totals["total_isolator"] - totals["total_bumpers"]
     change = stored(BUMPERS, part, -1) - stored(BUMPERS, part, 0)
     assert float(balance) == pytest.approx(change, abs=1e-11)
     every, log = vi.contacts(motion), vi.contacts(part)
@@ -253,5 +253,5 @@ def test_a_motion_that_goes_another_way_is_reported(function):
     motion = vi.simulate(vi.Rig(BUMPERS, vi.Harmonic(2.0, 0.4)), 3.0, samples=16)
     motion["displacement"][-1] += 1e-3
     with pytest.warns(RuntimeWarning, match=r"the motion ends 0\.001 m away from the recorded one"):
-        found = function(motion)
-    assert "the motion ends 0.001 m away" in found.attrs["notes"]
+        data = function(motion)
+    assert "the motion ends 0.001 m away" in data.attrs["notes"]

@@ -107,12 +107,12 @@ def test_its_extremes_are_those_of_dense_samples(name: str, kind: str) -> None:
     )
     size = float(np.ptp(values))
     totals = vi.totals(motion)
-    for found in (held, totals):
+    for extremes in (held, totals):
         for end, sampled, sign in (("max", values.max(), 1.0), ("min", values.min(), -1.0)):
-            more = sign * (float(found[f"transmitted_force_{end}"]) - sampled)
+            more = sign * (float(extremes[f"transmitted_force_{end}"]) - sampled)
             assert -1e-8 * size <= more <= 2e-3 * size, (name, kind, end)
-        excursion = float(found["transmitted_force_max"] - found["transmitted_force_min"])
-        assert float(found["transmitted_force_excursion"]) == pytest.approx(excursion, rel=1e-12)
+        excursion = float(extremes["transmitted_force_max"] - extremes["transmitted_force_min"])
+        assert float(extremes["transmitted_force_excursion"]) == pytest.approx(excursion, rel=1e-12)
     np.testing.assert_allclose(
         held["transmitted_force_excursion"], totals["transmitted_force_excursion"], rtol=1e-8
     )
@@ -170,8 +170,8 @@ def test_a_machine_on_its_mounts(ratio: float) -> None:
             "transmissibility": np.hypot(1.0, 2.0 * ratio * r) / distance,
         }
         for name, values in exact.items():
-            found = data[name].transpose(..., data["frequency"].dims[0])
-            np.testing.assert_allclose(found, found * 0.0 + values, rtol=1e-11, err_msg=name)
+            curve = data[name].transpose(..., data["frequency"].dims[0])
+            np.testing.assert_allclose(curve, curve * 0.0 + values, rtol=1e-11, err_msg=name)
     for direction in ("forward", "backward"):
         np.testing.assert_allclose(
             swept["transmitted_force_excursion"].sel(direction=direction),
@@ -239,6 +239,6 @@ def test_through_a_record_too() -> None:
     np.testing.assert_allclose(
         force, in_words(RIGS["bumpers"], motion), atol=1e-11 * np.abs(force).max()
     )
-    found = vi.totals(motion)
+    totals = vi.totals(motion)
     events = motion["event_transmitted_force_after"].values
-    assert float(found["transmitted_force_max"]) >= max(force.max(), events.max()) * (1 - 1e-12)
+    assert float(totals["transmitted_force_max"]) >= max(force.max(), events.max()) * (1 - 1e-12)

@@ -21,9 +21,9 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
         {"stiffness_ratio": np.geomspace(1.0, 4.0, 9), "gap_ratio": [delta, delta + 0.2]},
         step=0.02,
     )
-    told = []
-    border = jump_border(data, threads=1, progress=lambda *done: told.append(done))
-    assert told[-1] == (2, 2)
+    counts = []
+    border = jump_border(data, threads=1, progress=lambda *done: counts.append(done))
+    assert counts[-1] == (2, 2)
     for others in ({"threads": 2}, {"where": "processes", "threads": 2}):
         xr.testing.assert_identical(jump_border(data, **others), border)
     with pytest.raises(vi.InputError, match=r"^where: 'nowhere'"):

@@ -39,33 +39,33 @@ def test_too_short_a_wait_names_nothing():
 def test_a_range_without_the_resonance_names_nothing(low, high):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     held = np.arange(low, high, 0.01) * rig.oscillator.natural_frequency
-    found = classify(rig, held)
-    assert found.scenario == "unclassified"
-    assert "outside the frequency range" in found.evidence or "no contact" in found.evidence
+    verdict = classify(rig, held)
+    assert verdict.scenario == "unclassified"
+    assert "outside the frequency range" in verdict.evidence or "no contact" in verdict.evidence
 
 
-@pytest.mark.parametrize("given", [{"extent": 1}, 3])
-def test_thresholds_that_are_none_are_refused(given):
+@pytest.mark.parametrize("value", [{"extent": 1}, 3])
+def test_thresholds_that_are_none_are_refused(value):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     with pytest.raises(vi.InputError, match=r"thresholds: .* is not a Thresholds; .*, or None$"):
-        classify(rig, thresholds=given)
+        classify(rig, thresholds=value)
 
 
 def test_the_dataset_has_the_variables_of_a_map_and_those_of_the_sweep():
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
-    found, inside = vi.classify_scenario(rig), classify(rig)
-    assert found.attrs["label"] == inside.scenario == Scenario(found["scenario"].item()).label
-    assert found.attrs["evidence"] == inside.evidence
-    assert found["confidence"].item() == inside.confidence
-    assert found["fold_frequency"].values.tolist() == list(inside.features.folds)
+    data, inside = vi.classify_scenario(rig), classify(rig)
+    assert data.attrs["label"] == inside.scenario == Scenario(data["scenario"].item()).label
+    assert data.attrs["evidence"] == inside.evidence
+    assert data["confidence"].item() == inside.confidence
+    assert data["fold_frequency"].values.tolist() == list(inside.features.folds)
     nodes = vi.scenario_map(
         None, {"stiffness_ratio": [25.9, 26.0], "gap_ratio": [0.5, 0.6]}, step=0.1
     )
-    assert {str(name) for name in nodes} - {"level"} <= {str(name) for name in found}
-    assert found["eta_a"].identical(inside.sweep["eta_a"])
+    assert {str(name) for name in nodes} - {"level"} <= {str(name) for name in data}
+    assert data["eta_a"].identical(inside.sweep["eta_a"])
 
 
 def test_a_threshold_that_matters_is_listed():
-    found = vi.classify_scenario("B2-G4-A1")
-    assert found.attrs["label"] == "S1"
-    assert found.attrs["alternatives"] == "S2 if touch were 0.05"
+    data = vi.classify_scenario("B2-G4-A1")
+    assert data.attrs["label"] == "S1"
+    assert data.attrs["alternatives"] == "S2 if touch were 0.05"

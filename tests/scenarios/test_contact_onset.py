@@ -17,10 +17,10 @@ def test_where_contact_begins_is_no_secondary_resonance():
     peak = np.where(here, 0.3, 0.0)
     touching = np.array([(GRID > 0.985) & (forward > 0.25), (GRID > 0.985) & (backward > 0.25)])
     data = made(forward + peak, backward + peak, touching=touching, period=np.where(here, 0, 1))
-    found = evidence(RIG, data, 0.01)
-    assert found.onset == ((1.0, 1.2),)
-    assert found.irregular == ()
-    assert found.secondary == ()
+    features = evidence(RIG, data, 0.01)
+    assert features.onset == ((1.0, 1.2),)
+    assert features.irregular == ()
+    assert features.secondary == ()
     assert named(data) == "S2"
     # The same with contact all along: a resonance of its own if the curve falls towards it.
     valley = bump(0.85, 0.06, -0.4)
@@ -37,9 +37,9 @@ def test_left_hysteresis_where_contact_begins():
     more = lift + np.where(inside(1.13, 1.2), 0.3, 0.0)
     period = np.where(inside(1.0, 1.12), 3, 1)
     data = made(forward + lift, backward + more, touching=touching, period=period)
-    found = evidence(RIG, data, 0.01)
-    assert found.onset == ((1.0, 1.2),)
-    assert found.left == ()
+    features = evidence(RIG, data, 0.01)
+    assert features.onset == ((1.0, 1.2),)
+    assert features.left == ()
     assert named(data) == "S2"
 
 
@@ -62,6 +62,6 @@ def test_a_range_that_begins_the_sweep(share, pressed):
     forward, backward = primary()
     peak = bump(0.5, 0.05, 0.4)
     data = made(forward + peak, backward + peak, period=np.where(inside(0.4, 0.6), 3, 1))
-    found = evidence(Rig(oscillator, RIG.sine), data, 0.01)
-    assert bool(found.irregular) == pressed
-    assert (found.onset == ()) == pressed
+    features = evidence(Rig(oscillator, RIG.sine), data, 0.01)
+    assert bool(features.irregular) == pressed
+    assert (features.onset == ()) == pressed

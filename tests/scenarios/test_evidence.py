@@ -14,12 +14,12 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 def test_primary_resonance_alone():
     data = made(*primary())
-    found = evidence(RIG, data, 0.01)
-    assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("right", 1.61, 2.2)]
-    assert found.contact == (0.4, 2.2)
-    assert found.gap_ratio == pytest.approx(0.3)
-    assert found.penetration == pytest.approx(0.3)
-    assert found.extent(0.02) == 0.0
+    features = evidence(RIG, data, 0.01)
+    assert [(h.side, h.low, h.high) for h in features.hysteresis] == [("right", 1.61, 2.2)]
+    assert features.contact == (0.4, 2.2)
+    assert features.gap_ratio == pytest.approx(0.3)
+    assert features.penetration == pytest.approx(0.3)
+    assert features.extent(0.02) == 0.0
     assert named(data) == "S2"
 
 
@@ -27,8 +27,8 @@ def test_regular_secondary_resonance():
     forward, backward = primary()
     peak = bump(0.7, 0.05, 0.5)
     data = made(forward + peak, backward + peak)
-    found = evidence(RIG, data, 0.01)
-    ((frequency, share),) = found.secondary_resonances(0.02)
+    features = evidence(RIG, data, 0.01)
+    ((frequency, share),) = features.secondary_resonances(0.02)
     assert frequency == pytest.approx(0.7, abs=0.02)
     # Above the higher one of its valleys, which is the one beyond it.
     beyond = (forward + peak)[GRID > 0.7].tolist()
@@ -44,13 +44,13 @@ def test_left_hysteresis_counts_by_its_width():
     forward, backward = primary()
     low = np.where(inside(0.66, 0.75), 0.5, 0.0)
     data = made(forward, backward + low)
-    found = evidence(RIG, data, 0.01)
-    assert [(h.side, h.low, h.high) for h in found.left] == [("left", 0.66, 0.75)]
-    assert found.extent(0.02) == pytest.approx(0.1)
+    features = evidence(RIG, data, 0.01)
+    assert [(h.side, h.low, h.high) for h in features.left] == [("left", 0.66, 0.75)]
+    assert features.extent(0.02) == pytest.approx(0.1)
     assert named(data) == "S4"
     assert named(data, extent=0.11) != "S4"
     # Twice the threshold is too much, half of it is not.
-    assert confidence(found, Thresholds()) == pytest.approx(7 / 8)
+    assert confidence(features, Thresholds()) == pytest.approx(7 / 8)
 
 
 @pytest.mark.parametrize(
@@ -69,10 +69,10 @@ def test_irregular_resonance(period, uneven, kind):
         period=np.where(here, period, 1),
         uneven=here & uneven,
     )
-    found = evidence(RIG, data, 0.01)
-    assert [(i.low, i.high, i.kinds) for i in found.irregular] == [(1.0, 1.2, (kind,))] * 2
-    assert found.irregular[0].prominence > 0.1
-    assert found.extent(0.02) == pytest.approx(0.2)
+    features = evidence(RIG, data, 0.01)
+    assert [(i.low, i.high, i.kinds) for i in features.irregular] == [(1.0, 1.2, (kind,))] * 2
+    assert features.irregular[0].prominence > 0.1
+    assert features.extent(0.02) == pytest.approx(0.2)
     assert named(data) == "S4"
     # With no peak of the excursion in it, it is not a resonance.
     flat = made(
@@ -103,9 +103,9 @@ def test_a_hysteresis_of_motions_that_did_not_settle_is_none():
     """Two windows of wandering motions differ, too."""
     forward, backward = primary()
     wandering = made(forward, backward, period=np.where(inside(1.55, 2.25), 0, 1))
-    found = evidence(RIG, wandering, 0.01)
-    assert [item.settled for item in found.hysteresis] == [False]
-    assert found.right == ()
+    features = evidence(RIG, wandering, 0.01)
+    assert [item.settled for item in features.hysteresis] == [False]
+    assert features.right == ()
     low = np.where(inside(0.66, 0.75), 0.5, 0.0)
     data = made(forward, backward + low, period=np.where(inside(0.6, 0.8), 0, 1))
     assert evidence(RIG, data, 0.01).left == ()
@@ -116,17 +116,17 @@ def test_what_lies_above_the_primary_resonance_does_not_count():
     backward = np.where(inside(2.5, 2.8), 0.28, slope(1.6))
     period = np.where(inside(2.5, 2.8), 0, 1)
     data = made(forward, backward, touching=True, period=period)
-    found = evidence(RIG, data, 0.01)
-    assert [item.low for item in found.irregular] == [2.5, 2.5]
-    assert found.extent(0.01) == 0.0
+    features = evidence(RIG, data, 0.01)
+    assert [item.low for item in features.irregular] == [2.5, 2.5]
+    assert features.extent(0.01) == 0.0
     assert named(data) == "S2"
 
 
 def test_free_flight_is_that_at_any_frequency():
     """Of a sweep that does not reach the resonance, too."""
     data = made(*primary()).sel(frequency=slice(1.4, 3.0))
-    found = evidence(RIG, data, 0.01)
-    assert found.gap_ratio == pytest.approx(0.3)
-    assert not found.within
+    features = evidence(RIG, data, 0.01)
+    assert features.gap_ratio == pytest.approx(0.3)
+    assert not features.within
     assert named(data) == "unclassified"
     assert named(made(*primary()).sel(frequency=slice(0.4, 1.3))) == "unclassified"

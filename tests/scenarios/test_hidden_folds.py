@@ -46,17 +46,17 @@ def test_nothing_hides_in_a_smooth_resonance():
 @pytest.mark.parametrize("rise", [0.0, 2.0])
 def test_a_cusp_shows_wherever_it_lies_between_two_frequencies(at, rise):
     place = FREQUENCY - (FREQUENCY[40] + at)
-    found = _looked_at(1.0 + np.cbrt(place) + rise * place)
-    assert any(first <= 40 and last >= 41 for first, last in found)
-    assert sum(last - first for first, last in found) <= 4
+    spans = _looked_at(1.0 + np.cbrt(place) + rise * place)
+    assert any(first <= 40 and last >= 41 for first, last in spans)
+    assert sum(last - first for first, last in spans) <= 4
 
 
 @pytest.mark.parametrize("given_up", [38, 39, 42, 43])
 def test_a_hold_that_was_given_up_hides_no_cusp_beside_it(given_up):
     curve = 1.0 + np.cbrt(FREQUENCY - FREQUENCY[40] - 0.005)
     curve[given_up] = np.nan
-    found = _looked_at(curve, period=np.where(np.arange(101) == given_up, 0, 1))
-    assert any(first <= 40 and last >= 41 for first, last in found)
+    spans = _looked_at(curve, period=np.where(np.arange(101) == given_up, 0, 1))
+    assert any(first <= 40 and last >= 41 for first, last in spans)
 
 
 def test_where_the_contacts_change_it_is_looked_at():
@@ -77,9 +77,9 @@ def test_a_part_of_the_branch_tells_what_the_whole_one_tells(monkeypatch):
     """Rigs beside the cusp in which jumps begin, and others."""
     asked = []
 
-    def both_ways(found, rig, ended, both):
-        part = with_folds(found, rig, ended, both)
-        asked.append((with_folds(found, rig, ended), part))
+    def both_ways(features, rig, ended, both):
+        part = with_folds(features, rig, ended, both)
+        asked.append((with_folds(features, rig, ended), part))
         return part
 
     monkeypatch.setattr(map_node, "with_folds", both_ways)

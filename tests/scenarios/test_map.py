@@ -100,10 +100,10 @@ def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
 def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):
     stops = 0
     for limit in (0, 3, 5, 9, 20):
-        told = iter(range(limit + 1))
+        countdown = iter(range(limit + 1))
 
-        def stop(done: int, total: int, told=told) -> None:
-            if next(told, None) is None:
+        def stop(done: int, total: int, countdown=countdown) -> None:
+            if next(countdown, None) is None:
                 raise KeyboardInterrupt
 
         try:

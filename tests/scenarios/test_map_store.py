@@ -33,12 +33,12 @@ def whole(tmp_path_factory):
 
 
 def test_a_finished_map_is_read_and_not_computed(whole):
-    told = []
+    counts = []
     again = vi.scenario_map(
-        None, AXES, **OPTIONS, store=whole[0], progress=lambda *at: told.append(at)
+        None, AXES, **OPTIONS, store=whole[0], progress=lambda *at: counts.append(at)
     )
     xr.testing.assert_identical(again.load(), whole[1])
-    assert told == []
+    assert counts == []
 
 
 @pytest.mark.parametrize(
@@ -52,8 +52,8 @@ def test_a_finished_map_is_read_and_not_computed(whole):
 )
 def test_a_store_with_another_map_is_refused_and_kept(whole, changes, field):
     store, first = whole
-    told = rf"store: .* contains a map with other values of {field};"
-    with pytest.raises(vi.InputError, match=told):
+    message = rf"store: .* contains a map with other values of {field};"
+    with pytest.raises(vi.InputError, match=message):
         vi.scenario_map(vary=AXES, store=store, **{"rig": None, **OPTIONS, **changes})
     xr.testing.assert_identical(vi.scenario_map(None, AXES, **OPTIONS, store=store).load(), first)
 

@@ -26,22 +26,22 @@ def chaotic():
 
 
 def test_motions_that_are_not_periodic_are_named(chaotic):
-    found, rig, ended = chaotic
-    assert any("not periodic" in item.kinds for item in found.irregular)
-    named = with_kinds(found, rig, ended)
+    features, rig, ended = chaotic
+    assert any("not periodic" in item.kinds for item in features.irregular)
+    named = with_kinds(features, rig, ended)
     assert any("chaotic" in item.kinds for item in named.irregular)
     assert not any("quasi-periodic" in item.kinds for item in named.irregular)
 
 
 def test_a_motion_that_meets_the_event_limit_stays_unnamed(chaotic, monkeypatch):
     monkeypatch.setattr("vibroimpact.scenarios.orbit_evidence._MAX_EVENTS", 1)
-    found, rig, ended = chaotic
-    named = with_kinds(found, rig, ended)
-    assert [item.kinds for item in named.irregular] == [item.kinds for item in found.irregular]
+    features, rig, ended = chaotic
+    named = with_kinds(features, rig, ended)
+    assert [item.kinds for item in named.irregular] == [item.kinds for item in features.irregular]
 
 
 def test_naming_ends_where_it_is_not_wanted_any_more(chaotic):
-    found, rig, ended = chaotic
+    features, rig, ended = chaotic
     asked = []
 
     def check() -> None:
@@ -50,28 +50,28 @@ def test_naming_ends_where_it_is_not_wanted_any_more(chaotic):
             raise Stopped
 
     with pytest.raises(Stopped):
-        with_kinds(found, rig, ended, check=check)
+        with_kinds(features, rig, ended, check=check)
 
 
 def test_folds_lie_where_the_sweeps_jump():
-    found, rig, ended = looked_at("B2-G1-A3", 0.9, 4.0, 0.05)
-    exact = with_folds(found, rig, ended).folds
-    (right,) = found.right
+    features, rig, ended = looked_at("B2-G1-A3", 0.9, 4.0, 0.05)
+    exact = with_folds(features, rig, ended).folds
+    (right,) = features.right
     assert right.below < exact[-2] < right.low
     assert right.high < exact[-1] < right.above
 
 
 def test_no_contact_no_branch():
-    found, rig, ended = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
-    assert primary_branch(found, rig, ended) is None
-    assert with_folds(found, rig, ended).folds is None
+    features, rig, ended = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
+    assert primary_branch(features, rig, ended) is None
+    assert with_folds(features, rig, ended).folds is None
 
 
 @pytest.mark.parametrize("relaxation", [1.0, 1000.0])
 def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
     chaotic, relaxation, monkeypatch
 ):
-    found, rig, ended = chaotic
+    features, rig, ended = chaotic
     asked = []
 
     def judged(followed, state, cycles, max_events):
@@ -80,9 +80,9 @@ def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
 
     monkeypatch.setattr("vibroimpact.scenarios.orbit_evidence.judge_wandering", judged)
     monkeypatch.setattr("vibroimpact.scenarios.orbit_evidence._RELAXATIONS", 20.0 * relaxation)
-    whole = with_kinds(found, rig, ended)
+    whole = with_kinds(features, rig, ended)
     all_of_them, asked[:] = len(asked), []
-    brief = with_kinds(found, rig, ended, brief=True)
+    brief = with_kinds(features, rig, ended, brief=True)
     again = [item for item in brief.irregular if "not periodic" in item.kinds]
     assert (len(asked) < all_of_them) == bool(again) == (relaxation == 1.0)
     for one, other in zip(whole.irregular, brief.irregular, strict=True):

@@ -18,10 +18,10 @@ def test_a_sweep_without_a_dataset_shows_the_same(gaps):
     grid = np.arange(0.5, 2.5, 0.02) * rig.oscillator.natural_frequency
     data = vi.sweep(rig, grid, max_cycles=300, window=100)
     curves, ended = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
-    (told,) = each_curves(as_rigs(data))
-    assert told.uneven.any()
-    assert told.both.settled.all() == (gaps[0] != gaps[1])
-    for one, other in zip((*curves, *curves.both), (*told, *told.both), strict=True):
+    (from_data,) = each_curves(as_rigs(data))
+    assert from_data.uneven.any()
+    assert from_data.both.settled.all() == (gaps[0] != gaps[1])
+    for one, other in zip((*curves, *curves.both), (*from_data, *from_data.both), strict=True):
         if not hasattr(one, "_fields"):
             np.testing.assert_array_equal(one, other)
     for one, other in zip(ended, holds(data), strict=True):
@@ -37,9 +37,9 @@ def test_a_bumper_that_stays_pressed_is_touched_in_both():
     data = vi.sweep(rig, grid, max_cycles=300, window=100)
     assert not data["impacts"].sel(stop="left").any()
     curves, _ = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
-    (told,) = each_curves(as_rigs(data))
+    (from_data,) = each_curves(as_rigs(data))
     assert curves.both.touching.all()
-    assert told.both.touching.all()
+    assert from_data.both.touching.all()
 
 
 def test_the_end_of_a_hold_is_where_the_mass_goes_on():

@@ -28,8 +28,8 @@ def test_a_rigid_stop_has_the_scenario_of_very_stiff_bumpers(ratio: float, named
     rig = between(ratio)
     bumper = vi.Bumper.from_restitution(1.0, 1e5, 0.6, ratio * PEAK)
     stiff = rig.replace(right=bumper, left=bumper)
-    found = classify(vi.Rig(rig, 1.0), held)
-    assert found.scenario == named == classify(vi.Rig(stiff, 1.0), held).scenario
+    verdict = classify(vi.Rig(rig, 1.0), held)
+    assert verdict.scenario == named == classify(vi.Rig(stiff, 1.0), held).scenario
 
 
 def test_the_range_of_a_rigid_stop_is_bounded_by_energy_or_at_last() -> None:

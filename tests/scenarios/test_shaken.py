@@ -27,8 +27,8 @@ def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
     held = np.arange(0.5, 3.5, 0.02)
     base, force = (classify(vi.Rig(CASE.oscillator, one), held) for one in (CASE.amplitude, FORCE))
     for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
-        told = getattr(base.features, name), getattr(force.features, name)
-        assert told[1] == pytest.approx(told[0], rel=1e-9)
+        pair = getattr(base.features, name), getattr(force.features, name)
+        assert pair[1] == pytest.approx(pair[0], rel=1e-9)
     np.testing.assert_allclose(force.features.folds, base.features.folds, rtol=1e-8)
     assert highest(one_sine(vi.Rig(CASE.oscillator, FORCE))) == highest(
         one_sine(vi.Rig(CASE.oscillator, CASE.amplitude))
@@ -40,8 +40,8 @@ def test_an_unbalance_is_a_displacement_of_the_base() -> None:
     held = np.arange(0.5, 3.5, 0.02)
     base, machine = (classify(vi.Rig(CASE.oscillator, one), held) for one in (SWING, UNBALANCE))
     for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
-        told = getattr(base.features, name), getattr(machine.features, name)
-        assert told[1] == pytest.approx(told[0], rel=1e-9)
+        pair = getattr(base.features, name), getattr(machine.features, name)
+        assert pair[1] == pytest.approx(pair[0], rel=1e-9)
     np.testing.assert_allclose(machine.features.folds, base.features.folds, rtol=1e-8)
     assert highest(one_sine(vi.Rig(CASE.oscillator, UNBALANCE))) == highest(
         one_sine(vi.Rig(CASE.oscillator, SWING))
@@ -64,29 +64,29 @@ def test_growth_of_the_acceleration_hides_no_scenario_in_silence(ratio: float) -
     Where the mass hits nothing, that is S0. Otherwise the top of η_a is no resonance.
     """
     rig = _of_unit_frequency(ratio)
-    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    verdict = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
     moved = classify(vi.Rig(rig, "2 mm"))
     assert moved.scenario == ("S0" if ratio > 1.0 else "S2")
     assert "hides" not in moved.evidence
-    assert found.features.contact == moved.features.contact
+    assert verdict.features.contact == moved.features.contact
     if ratio > 1.0:
-        assert found.scenario == "S0"
+        assert verdict.scenario == "S0"
         return
-    assert found.scenario == "unclassified"
-    assert found.confidence == 1.0
-    assert "undecided: η_a grows with the frequency without contact" in found.evidence
-    assert "m e/M" in found.evidence
-    assert "outside the frequency range" not in found.evidence
-    assert "\n" not in found.evidence
+    assert verdict.scenario == "unclassified"
+    assert verdict.confidence == 1.0
+    assert "undecided: η_a grows with the frequency without contact" in verdict.evidence
+    assert "m e/M" in verdict.evidence
+    assert "outside the frequency range" not in verdict.evidence
+    assert "\n" not in verdict.evidence
 
 
 def test_a_left_hysteresis_below_the_hidden_resonance_is_not_s4() -> None:
     """Ranges below the end of the sweep are below the primary resonance only if that is there."""
     rig = _of_unit_frequency(0.7)
-    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
-    assert found.features.hidden_by == "unbalance"
+    verdict = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    assert verdict.features.hidden_by == "unbalance"
     wide = Hysteresis("left", 2.0, 3.0, 1.9, 3.1, True)
-    features = found.features._replace(left=(wide,))
+    features = verdict.features._replace(left=(wide,))
     assert features.extent(0.02) >= 0.08
     assert scenario(features, vi.Thresholds()) is Scenario.UNCLASSIFIED
     assert scenario(features._replace(hidden_by=None), vi.Thresholds()) is Scenario.S4
@@ -94,17 +94,17 @@ def test_a_left_hysteresis_below_the_hidden_resonance_is_not_s4() -> None:
 
 def test_a_resonance_that_stands_out_keeps_its_scenario_under_an_unbalance() -> None:
     rig = _of_unit_frequency(0.4, 2.0)
-    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
-    assert found.scenario == classify(vi.Rig(rig, "2 mm")).scenario == "S6"
+    verdict = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    assert verdict.scenario == classify(vi.Rig(rig, "2 mm")).scenario == "S6"
 
 
 def test_far_above_the_resonance_the_growth_over_a_moving_base_hides_it_too() -> None:
     """There ü + A_t → 2ξ ω₀ ω X, which passes the resonance at some ten times its frequency."""
     rig = _of_unit_frequency(0.97, 2.0)
-    found = classify(vi.Rig(rig, "2 mm"), np.arange(0.4, 15.0, 0.02))
-    assert found.scenario == "unclassified"
-    assert "undecided: η_a grows with the frequency without contact" in found.evidence
-    assert "end the frequencies lower" in found.evidence
+    verdict = classify(vi.Rig(rig, "2 mm"), np.arange(0.4, 15.0, 0.02))
+    assert verdict.scenario == "unclassified"
+    assert "undecided: η_a grows with the frequency without contact" in verdict.evidence
+    assert "end the frequencies lower" in verdict.evidence
 
 
 @pytest.mark.parametrize(("ratio", "named"), [(1.2, "S0"), (0.97, "S2"), (0.7, "S2")])
@@ -114,10 +114,10 @@ def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: 
     What only grazes at one acceleration is carried on by one displacement, which shakes the more
     the higher the frequency.
     """
-    found = classify(vi.Rig(_of_unit_frequency(ratio), "2 mm"))
-    assert found.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
-    assert found.features.within
-    assert found.scenario == named
+    verdict = classify(vi.Rig(_of_unit_frequency(ratio), "2 mm"))
+    assert verdict.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
+    assert verdict.features.within
+    assert verdict.scenario == named
 
 
 def test_a_base_that_moves_far_resonates_above_the_natural_frequency() -> None:
@@ -145,8 +145,8 @@ def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
     )
     assert one.scenario == other.scenario
     for name in ("contact", "gap_ratio", "penetration", "onset"):
-        told = getattr(one.features, name), getattr(other.features, name)
-        assert told[1] == pytest.approx(told[0], rel=1e-6)
+        pair = getattr(one.features, name), getattr(other.features, name)
+        assert pair[1] == pytest.approx(pair[0], rel=1e-6)
 
 
 @pytest.mark.parametrize("shaken", [FORCE, SWING])

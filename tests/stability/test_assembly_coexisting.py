@@ -37,23 +37,23 @@ def test_motions_beside_a_fold_are_both_found() -> None:
     folds = branch["bifurcation_value"].values[branch["bifurcation_kind"].values == "fold"]
     assert len(folds) >= 2
     middle = float(0.5 * (np.sort(folds)[0] + np.sort(folds)[1]))
-    found = vi.coexisting_motions(rig, frequency=middle, random=4)
-    stable = found["stable"].values == 1
+    motions = vi.coexisting_motions(rig, frequency=middle, random=4)
+    stable = motions["stable"].values == 1
     assert stable.sum() >= 2
-    assert found["displacement_max"].dims == ("attractor", "mass")
+    assert motions["displacement_max"].dims == ("attractor", "mass")
     for i in np.flatnonzero(stable):
-        one = found.isel(attractor=i)
+        one = motions.isel(attractor=i)
         again = vi.steady(rig, frequency=middle, start=one)
         np.testing.assert_allclose(again["displacement_max"], one["displacement_max"], rtol=1e-8)
 
 
 def test_a_chaotic_motion_has_fewer_exponents() -> None:
     rig = damper(zeta=0.05, mass=0.1, e=0.6, clearance=8.0)
-    found = vi.coexisting_motions(
+    motions = vi.coexisting_motions(
         rig, frequencies=[0.1, 0.2], random=1, max_cycles=300, exponent_cycles=1500
     )
-    assert found.sizes["attractor"] >= 1
-    assert "chaotic" in found["motion"].values
+    assert motions.sizes["attractor"] >= 1
+    assert "chaotic" in motions["motion"].values
 
 
 @pytest.mark.parametrize("isolator", ["hardens", "yields"])
@@ -71,8 +71,8 @@ def test_random_starts_of_curved_links_lead_to_their_motions(isolator: str) -> N
         {"between": vi.Link("west", "east", SOFT)},
     )
     rig = vi.Rig(linked, vi.Harmonic("1 m/s2", 1.7))
-    found = vi.coexisting_motions(rig, random=4, max_cycles=400)
-    assert "random 4" in " ".join(found["starts"].values)
-    one = found.isel(attractor=0)
+    motions = vi.coexisting_motions(rig, random=4, max_cycles=400)
+    assert "random 4" in " ".join(motions["starts"].values)
+    one = motions.isel(attractor=0)
     again = vi.steady(rig, start=one)
     np.testing.assert_allclose(again["displacement_max"], one["displacement_max"], rtol=1e-8)

@@ -30,12 +30,12 @@ def neighbours(gap: float) -> xr.Dataset:
 
 def test_a_curve_of_one_mass_is_the_oscillators() -> None:
     vary = {"frequency": (0.8, 2.6)}
-    found = []
+    curves = []
     for assembled in (False, True):
         rig = alone(STOPS["bumpers"], assembled=assembled)
         fold = first(vi.branch(rig, vary=vary), "fold")
-        found.append(vi.bifurcation_curve(rig, fold, vary={**vary, "gap": (0.006, 0.012)}))
-    one, several = found
+        curves.append(vi.bifurcation_curve(rig, fold, vary={**vary, "gap": (0.006, 0.012)}))
+    one, several = curves
     assert several.sizes["point"] == one.sizes["point"] > 10
     for name in ("frequency", "gap"):
         np.testing.assert_allclose(several[name], one[name], rtol=1e-11)

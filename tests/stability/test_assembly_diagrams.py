@@ -44,20 +44,20 @@ def test_of_one_mass_is_the_oscillators(path: str, kind: str) -> None:
 
 def test_motions_are_those_of_steady() -> None:
     rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 0.9))
-    found = vi.bifurcation_diagram(
+    diagram = vi.bifurcation_diagram(
         rig,
         vary={"stops.right.gap": (0.009, 0.013)},
         steps=3,
         starts={"pushed": vi.State(velocity={"roof": 0.2})},
         random=2,
     )
-    assert found.sizes["start"] == 5
-    assert found["section_velocity"].dims[-1] == "mass"
-    assert found["section_deformation"].dims[-1] == "stop"
-    settled = np.flatnonzero(found["period"].sel(start="pushed"))
+    assert diagram.sizes["start"] == 5
+    assert diagram["section_velocity"].dims[-1] == "mass"
+    assert diagram["section_deformation"].dims[-1] == "stop"
+    settled = np.flatnonzero(diagram["period"].sel(start="pushed"))
     assert len(settled) == 3
     for i in settled:
-        here = found.isel({"stops.right.gap": i}).sel(start="pushed")
+        here = diagram.isel({"stops.right.gap": i}).sel(start="pushed")
         law = frame().stops["right"].law.replace(gap=float(here["stops.right.gap"]))
         wall = vi.Link("base", "ground", law)
         assembly = rig.system.replace(stops={**rig.system.stops, "right": wall})
@@ -70,14 +70,14 @@ def test_no_wall_is_passed_where_a_motion_goes_on_with_a_smaller_gap() -> None:
     rig = vi.Rig(frame(vi.RigidStop(0.8, 0.012)), vi.Harmonic("1 m/s2", 0.9))
     vary = {"stops.right.gap": (0.004, 0.013)}
     options = {"points": 20, "exponent_cycles": 64, "max_cycles": 60}
-    found = vi.bifurcation_diagram(rig, vary=vary, steps=4, directions="down", **options)
-    most = found["displacement_max"].sel(mass="base").values
-    assert (most <= found["stops.right.gap"].values * (1.0 + 1e-12)).all()
+    diagram = vi.bifurcation_diagram(rig, vary=vary, steps=4, directions="down", **options)
+    most = diagram["displacement_max"].sel(mass="base").values
+    assert (most <= diagram["stops.right.gap"].values * (1.0 + 1e-12)).all()
 
 
 def test_a_motion_that_is_not_periodic_fills_its_section() -> None:
     rig = damper(zeta=0.05, mass=0.1, e=0.6, clearance=8.0)
-    found = vi.bifurcation_diagram(
+    diagram = vi.bifurcation_diagram(
         rig,
         vary={"links.spring.stiffness": (0.999, 1.0)},
         steps=2,
@@ -86,7 +86,7 @@ def test_a_motion_that_is_not_periodic_fills_its_section() -> None:
         exponent_cycles=800,
         max_cycles=200,
     )
-    last = found.isel({"links.spring.stiffness": 1, "start": 0})
+    last = diagram.isel({"links.spring.stiffness": 1, "start": 0})
     assert str(last["motion"].values) == "chaotic"
     assert float(last["exponents"][0]) > 0.0
     assert np.isfinite(last["section_displacement"]).all()

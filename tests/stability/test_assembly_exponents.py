@@ -47,29 +47,29 @@ def test_they_sum_to_what_damping_and_impacts_contract() -> None:
     rig = damper(zeta=0.05, mass=0.1, e=e, clearance=8.0)
     frequency = rig.periodic.frequency
     cycles, before = 500, 100
-    found = vi.lyapunov_exponents(rig, [frequency], cycles, transient=before)
-    found = found.isel(rig=0, frequency=0)
-    assert found["exponents"].sizes == {"exponent": 4}
-    assert float(found["exponents"][0]) > 0.0
+    growth = vi.lyapunov_exponents(rig, [frequency], cycles, transient=before)
+    growth = growth.isel(rig=0, frequency=0)
+    assert growth["exponents"].sizes == {"exponent": 4}
+    assert float(growth["exponents"][0]) > 0.0
     # The impacts of the same cycles of the same motion.
     start = vi.simulate(rig, before + 100, samples=0)
     motion = vi.simulate(rig, cycles, start, samples=1)
     impacts = int((motion["event_contact"] == 2).sum())
     expected = -2.0 * 0.05 + 2.0 * math.log(e) * impacts * frequency / cycles
-    assert float(found["exponents"].sum()) == pytest.approx(expected, rel=1e-10)
-    assert float(found["effective_damping"]) == pytest.approx(-expected, rel=1e-10)
+    assert float(growth["exponents"].sum()) == pytest.approx(expected, rel=1e-10)
+    assert float(growth["effective_damping"]) == pytest.approx(-expected, rel=1e-10)
 
 
 def test_rigs_of_different_sizes_stand_beside_each_other() -> None:
     chain = vi.Rig(vi.chain([2.0] * 3, [300.0] * 3, damping_ratio=0.03), vi.Harmonic(0.5, 0.9))
     one = alone(STOPS["bumpers"], assembled=False)
-    found = vi.lyapunov_exponents({"chain": chain, "one": one}, [0.9, 1.3], 10_000)
-    assert found.sizes["exponent"] == 6
-    assert np.isnan(found["exponents"].sel(rig="one")[:, 2:]).all()
+    growth = vi.lyapunov_exponents({"chain": chain, "one": one}, [0.9, 1.3], 10_000)
+    assert growth.sizes["exponent"] == 6
+    assert np.isnan(growth["exponents"].sel(rig="one")[:, 2:]).all()
     # Without stops, the real parts of the eigenvalues.
     system = chain.system
     expected = np.sort(np.repeat(-system.damping_ratios * system.natural_frequencies, 2))[::-1]
-    mine = found["exponents"].sel(rig="chain").values
+    mine = growth["exponents"].sel(rig="chain").values
     np.testing.assert_allclose(mine, [2 * np.pi * expected] * 2, rtol=2e-2)
     trace = np.trace(np.linalg.solve(system.mass_matrix, system.damping_matrix))
     np.testing.assert_allclose(mine.sum(axis=1), -trace, rtol=1e-11)

@@ -61,8 +61,8 @@ def test_the_orbit_of_one_mass_is_the_oscillators(kind: str) -> None:
         mine, theirs = float(np.squeeze(several[name])), float(one[name])
         assert mine == pytest.approx(theirs, rel=1e-12)
     known = one["multiplier_real"] + 1j * one["multiplier_imag"]
-    found = several["multiplier_real"] + 1j * several["multiplier_imag"]
-    np.testing.assert_allclose(found[:2], known[:2], rtol=0, atol=1e-11)
+    multipliers = several["multiplier_real"] + 1j * several["multiplier_imag"]
+    np.testing.assert_allclose(multipliers[:2], known[:2], rtol=0, atol=1e-11)
     size = abs(one["monodromy"].values[:2, :2]).max()
     np.testing.assert_allclose(
         several["monodromy"].values[:2, :2],
@@ -83,9 +83,9 @@ def section_after(rig: vi.Rig, state: vi.State, cycles: int) -> np.ndarray:
 @pytest.mark.parametrize("stop", [None, vi.RigidStop(0.8, 0.012)])
 def test_multipliers_are_those_of_differences(stop: object) -> None:
     rig = vi.Rig(frame(stop), SHAKING)
-    found = vi.orbit(rig)
-    period = int(found["period"])
-    start = found["initial_state"]
+    orbit = vi.orbit(rig)
+    period = int(orbit["period"])
+    start = orbit["initial_state"]
     names = ["displacement.base", "displacement.roof", "velocity.base", "velocity.roof"]
     places = [list(start["component"].values).index(name) for name in names]
     assert (start.values[-3:-1] == 0).all()  # it flies at the section
@@ -99,10 +99,10 @@ def test_multipliers_are_those_of_differences(stop: object) -> None:
             ends.append(section_after(rig, moved, period))
         columns.append((ends[0] - ends[1])[places] / (2 * step))
     differences = np.array(columns).T
-    exact = found["monodromy"].values[:4, :4]
+    exact = orbit["monodromy"].values[:4, :4]
     np.testing.assert_allclose(exact, differences, rtol=0, atol=1e-6 * abs(exact).max())
     expected = np.linalg.eigvals(differences)
-    multipliers = (found["multiplier_real"] + 1j * found["multiplier_imag"]).values
+    multipliers = (orbit["multiplier_real"] + 1j * orbit["multiplier_imag"]).values
     for one in expected:
         assert abs(multipliers - one).min() <= 1e-6 * abs(exact).max()
 
@@ -111,19 +111,19 @@ def test_the_product_of_multipliers_is_that_of_the_damping() -> None:
     """Of rigid stops exp(−∫ tr M⁻¹C) times e² for each impact."""
     e = 0.8
     rig = vi.Rig(frame(vi.RigidStop(e, 0.012)), SHAKING)
-    found = vi.orbit(rig)
-    impacts = len(found.attrs["contacts"].split())
+    orbit = vi.orbit(rig)
+    impacts = len(orbit.attrs["contacts"].split())
     assert impacts >= 2
     assembly = rig.system
     trace = np.trace(np.linalg.solve(assembly.mass_matrix, assembly.damping_matrix))
-    lasts = int(found["period"]) / SHAKING.frequency
+    lasts = int(orbit["period"]) / SHAKING.frequency
     expected = math.exp(-trace * lasts) * e ** (2 * impacts)
-    moving = found["monodromy"].values[:4, :4]
+    moving = orbit["monodromy"].values[:4, :4]
     assert np.linalg.det(moving) == pytest.approx(expected, rel=1e-10)
-    multipliers = found["multiplier_real"].values + 1j * found["multiplier_imag"].values
+    multipliers = orbit["multiplier_real"].values + 1j * orbit["multiplier_imag"].values
     assert np.prod(multipliers[:4]).real == pytest.approx(expected, rel=1e-9)
-    assert found["exponents"].values.sum() * lasts == pytest.approx(math.log(expected), rel=1e-9)
-    assert float(found["effective_damping"]) * lasts == pytest.approx(
+    assert orbit["exponents"].values.sum() * lasts == pytest.approx(math.log(expected), rel=1e-9)
+    assert float(orbit["effective_damping"]) * lasts == pytest.approx(
         -math.log(expected), rel=1e-10
     )
 
@@ -176,11 +176,11 @@ def test_a_branch_of_one_mass_is_the_oscillators() -> None:
 
 def test_a_branch_without_contacts_is_the_linear_response() -> None:
     assembly = frame(gap=1.0)
-    found = vi.branch(vi.Rig(assembly, SHAKING), vary={"frequency": (0.4, 3.0)})
+    branch = vi.branch(vi.Rig(assembly, SHAKING), vary={"frequency": (0.4, 3.0)})
     m, c, k = assembly.mass_matrix, assembly.damping_matrix, assembly.stiffness_matrix
-    assert found.sizes["bifurcation"] == 0
-    for i in range(0, found.sizes["point"], 7):
-        here = found.isel(point=i)
+    assert branch.sizes["bifurcation"] == 0
+    for i in range(0, branch.sizes["point"], 7):
+        here = branch.isel(point=i)
         w = 2 * np.pi * float(here["frequency"])
         u = np.linalg.solve(k - w**2 * m + 1j * w * c, -m @ np.ones(2))
         np.testing.assert_allclose(here["displacement_max"], abs(u), rtol=1e-11)
@@ -230,10 +230,10 @@ def test_a_branch_over_a_storey_passes_its_orbits() -> None:
     """Orbits along the path are those that `orbit` finds at its values."""
     rig = vi.Rig(frame(), SHAKING)
     for path, span in (("links.storey.stiffness", (4e4, 9e4)), ("masses.roof", (200.0, 300.0))):
-        found = vi.branch(rig, vary={path: span})
-        assert found[path].attrs["units"] == ("kg" if "mass" in path else "N m-1")
-        for i in (0, found.sizes["point"] // 2, found.sizes["point"] - 1):
-            here = found.isel(point=i)
+        branch = vi.branch(rig, vary={path: span})
+        assert branch[path].attrs["units"] == ("kg" if "mass" in path else "N m-1")
+        for i in (0, branch.sizes["point"] // 2, branch.sizes["point"] - 1):
+            here = branch.isel(point=i)
             value = float(here[path])
             assembly = frame()
             if path.startswith("masses"):
@@ -249,9 +249,9 @@ def test_a_branch_over_a_storey_passes_its_orbits() -> None:
 
 def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
     rig = vi.Rig(frame(), SHAKING)
-    found = vi.branch(rig, vary={"amplitude": (0.2, 2.0)})
-    assert found["displacement_max"].dims == ("point", "mass")
-    assert "grazing" in found["bifurcation_kind"].values
+    branch = vi.branch(rig, vary={"amplitude": (0.2, 2.0)})
+    assert branch["displacement_max"].dims == ("point", "mass")
+    assert "grazing" in branch["bifurcation_kind"].values
     with pytest.raises(
         vi.InputError,
         match="'damping_ratio' is not a parameter of this rig; use freq",
@@ -287,11 +287,11 @@ def test_an_impact_damper_is_that_of_its_formula() -> None:
     p = a * a + b * b
     speed = (a * d / 2 + math.sqrt((a * d / 2) ** 2 - p * (d * d / 4 - size**2))) / p
     assert speed == pytest.approx(14.78340654, rel=1e-9)
-    found = vi.orbit(damper(zeta=zeta, mass=mu, e=e, clearance=d))
-    assert found.attrs["contacts"].split() in (["left", "right"], ["right", "left"])
-    assert int(found["stable"]) == 1
-    right = found["event_stop"].values == "right"
-    at = found.isel(event=np.flatnonzero(right)[0])
+    orbit = vi.orbit(damper(zeta=zeta, mass=mu, e=e, clearance=d))
+    assert orbit.attrs["contacts"].split() in (["left", "right"], ["right", "left"])
+    assert int(orbit["stable"]) == 1
+    right = orbit["event_stop"].values == "right"
+    at = orbit.isel(event=np.flatnonzero(right)[0])
     host = (a * speed - d / 2) + 2.0 * mu * speed * g0
     assert float(at["event_displacement"].sel(mass="host")) == pytest.approx(host, rel=1e-11)
     assert float(at["event_displacement"].sel(mass="ball")) == pytest.approx(
@@ -303,11 +303,11 @@ def test_an_impact_damper_is_that_of_its_formula() -> None:
 def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
     """Beyond Neimark–Sacker the motion beside the orbit spirals away from it, as told."""
     rig = damper(zeta=0.01, mass=0.05, e=0.75, clearance=30.0)
-    found = vi.branch(rig, vary={"frequency": (0.157, 0.182)})
-    kinds = found["bifurcation_kind"].values
+    branch = vi.branch(rig, vary={"frequency": (0.157, 0.182)})
+    kinds = branch["bifurcation_kind"].values
     assert "Neimark-Sacker" in kinds
     place = list(kinds).index("Neimark-Sacker")
-    critical = found.isel(bifurcation=place)
+    critical = branch.isel(bifurcation=place)
     pair = (
         critical["bifurcation_multiplier_real"] + 1j * critical["bifurcation_multiplier_imag"]
     ).values
@@ -324,11 +324,11 @@ def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
 def test_a_motion_that_does_not_settle_is_judged_by_its_exponents() -> None:
     """The growth of two motions side by side is that of the first exponent."""
     rig = damper(zeta=0.05, mass=0.1, e=0.6, clearance=8.0)
-    found = vi.steady(rig, samples=4, max_cycles=400, window=20, exponent_cycles=1500)
-    assert str(found["motion"].values) == "chaotic"
-    largest, spread = float(found["exponents"][0]), float(found["exponents_uncertainty"][0])
+    motion = vi.steady(rig, samples=4, max_cycles=400, window=20, exponent_cycles=1500)
+    assert str(motion["motion"].values) == "chaotic"
+    largest, spread = float(motion["exponents"][0]), float(motion["exponents_uncertainty"][0])
     assert largest > 0.0
-    start = found["initial_state"]
+    start = motion["initial_state"]
     grown, apart = 0.0, 1e-9
     other = start.copy()
     other[list(start["component"].values).index("velocity.host")] += apart
@@ -350,9 +350,9 @@ def test_masses_without_stops_have_one_orbit() -> None:
     for masses in (1, 3):
         chain = vi.chain([2.0] * masses, [300.0] * masses, damping_ratio=0.03)
         rig = vi.Rig(chain, vi.Harmonic("0.5 m/s2", 0.9))
-        found = vi.branch(rig, vary={"frequency": (0.5, 2.0)})
-        assert found.sizes["stop"] == 0
-        assert found.sizes["bifurcation"] == 0
+        branch = vi.branch(rig, vary={"frequency": (0.5, 2.0)})
+        assert branch.sizes["stop"] == 0
+        assert branch.sizes["bifurcation"] == 0
         m, c, k = chain.mass_matrix, chain.damping_matrix, chain.stiffness_matrix
         w = 2.0 * np.pi * 0.9
         u = np.linalg.solve(k - w**2 * m + 1j * w * c, -0.5 * m @ np.ones(masses))

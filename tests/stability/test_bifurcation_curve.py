@@ -81,8 +81,8 @@ def test_both_folds_meet_in_a_cusp():
             stiffness=stiffness, damping=rig.right.damping * stiffness / rig.right.stiffness
         )
         rig = rig.replace(right=bumper, left=bumper)
-        found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
-        counts.append(int((found["bifurcation_kind"] == "fold").sum()))
+        branches = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
+        counts.append(int((branches["bifurcation_kind"] == "fold").sum()))
     assert counts == [0, 2]
 
 
@@ -106,12 +106,14 @@ def test_the_parameter_of_the_start_is_the_first_whatever_the_order():
 
 def test_symmetry_breaking_and_period_doubling():
     rig = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(rig.oscillator, rig.amplitude), {"frequency": (0.9, 1.4)})
+    branches = vi.resonance_diagram(
+        vi.Rig(rig.oscillator, rig.amplitude), {"frequency": (0.9, 1.4)}
+    )
     for kind, critical in (("symmetry breaking", 1.0), ("period doubling", -1.0)):
-        row = int(np.flatnonzero(found["bifurcation_kind"].values == kind)[0])
+        row = int(np.flatnonzero(branches["bifurcation_kind"].values == kind)[0])
         data = vi.bifurcation_curve(
             vi.Rig(rig.oscillator, vi.Harmonic(rig.amplitude, 1.2)),
-            found.isel(bifurcation=row),
+            branches.isel(bifurcation=row),
             vary={"frequency": (0.5, 2.0), "amplitude": (0.47, 0.51)},
         )
         assert data.sizes["point"] > 3
@@ -120,7 +122,7 @@ def test_symmetry_breaking_and_period_doubling():
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "message"),
     [
         ({"vary": {"frequency": (0.3, 6.0)}}, r"^vary: 'frequency'; .*, with two parameters, such"),
         (
@@ -150,24 +152,26 @@ def test_symmetry_breaking_and_period_doubling():
         ({"start": None}, "start"),
     ],
 )
-def test_refused(wrong, told):
-    given = {
+def test_refused(wrong, message):
+    arguments = {
         "start": one("fold"),
         "vary": {"frequency": (0.3, 6.0), "gap": (1e-3, 2e-2)},
         **wrong,
     }
-    with pytest.raises(vi.InputError, match=told):
-        vi.bifurcation_curve(vi.Rig(case().oscillator, vi.Harmonic(0.5, 2.0)), **given)
+    with pytest.raises(vi.InputError, match=message):
+        vi.bifurcation_curve(vi.Rig(case().oscillator, vi.Harmonic(0.5, 2.0)), **arguments)
 
 
 def test_no_symmetry_breaking_without_symmetry():
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)})
-    row = int(np.flatnonzero(found["bifurcation_kind"].values == "symmetry breaking")[0])
+    branches = vi.resonance_diagram(
+        vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)}
+    )
+    row = int(np.flatnonzero(branches["bifurcation_kind"].values == "symmetry breaking")[0])
     with pytest.raises(vi.InputError, match=r"^vary: 'stops\.right\.gap' makes the rig asymmetric"):
         vi.bifurcation_curve(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
-            found.isel(bifurcation=row),
+            branches.isel(bifurcation=row),
             vary={"frequency": (0.5, 2.0), "stops.right.gap": (1e-3, 2e-2)},
         )
 
@@ -176,12 +180,12 @@ def test_neimark_sacker():
     bumper = vi.Bumper(0.01, 0.2, 0.6)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
     turn = 2 * np.pi
-    found = vi.resonance_diagram(vi.Rig(rig, 1.0), {"frequency": (1.0 / turn, 1.5 / turn)})
-    row = int(np.flatnonzero(found["bifurcation_kind"].values == "Neimark-Sacker")[0])
+    branches = vi.resonance_diagram(vi.Rig(rig, 1.0), {"frequency": (1.0 / turn, 1.5 / turn)})
+    row = int(np.flatnonzero(branches["bifurcation_kind"].values == "Neimark-Sacker")[0])
     seen = []
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic(1.0, 1.2 / turn)),
-        found.isel(bifurcation=row),
+        branches.isel(bifurcation=row),
         vary={"frequency": (0.5 / turn, 2.0 / turn), "gap": (0.4, 0.9)},
         progress=lambda *at: seen.append(at),
     )
@@ -196,11 +200,11 @@ def test_grazing_of_one_bumper(side):
     rig = case().oscillator
     far = rig.right.replace(gap=1.0)
     rig = rig.replace(**{"left" if side == "right" else "right": far})
-    found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
-    row = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[-1])
+    branches = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
+    row = int(np.flatnonzero(branches["bifurcation_kind"].values == "grazing")[-1])
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic(case().amplitude, 2.0)),
-        found.isel(bifurcation=row),
+        branches.isel(bifurcation=row),
         vary={"frequency": (0.5, 5.0), f"{side}.gap": (4e-3, 12e-3)},
     )
     omega = 2 * np.pi * data["frequency"].values
@@ -224,10 +228,10 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)
     shaken = vi.Harmonic("0.05 g", 3.0)
     whole = vi.Rig(rig, shaken)
-    found = vi.branch(whole, vary={"frequency": (0.6, 3.0)})
-    i = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[0])
+    branch = vi.branch(whole, vary={"frequency": (0.6, 3.0)})
+    i = int(np.flatnonzero(branch["bifurcation_kind"].values == "grazing")[0])
     data = vi.bifurcation_curve(
-        whole, found.isel(bifurcation=i), vary={"frequency": (0.3, 6.0), other: (low, high)}
+        whole, branch.isel(bifurcation=i), vary={"frequency": (0.3, 6.0), other: (low, high)}
     )
     assert data.sizes["point"] < 300
     for end in ("ended_low", "ended_high"):

@@ -42,13 +42,13 @@ def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, floa
 def test_period_doublings_lie_where_branches_double(parameter, low, high, frequency):
     """Each change from period 1 to 2 holds a doubling of the branch of period 1."""
     whole = vi.Rig(RIG, shaken(frequency))
-    given = (whole, {parameter: (low, high)}, sample(201, 41))
-    found = vi.bifurcation_diagram(*given, directions="up").isel(start=0)
-    ends = changes(found, 1, 2)
+    arguments = (whole, {parameter: (low, high)}, sample(201, 41))
+    diagram = vi.bifurcation_diagram(*arguments, directions="up").isel(start=0)
+    ends = changes(diagram, 1, 2)
     assert ends
     for below, above in ends:
-        middle = found.sel(
-            {parameter: below if int(found["period"].sel({parameter: below})) == 1 else above}
+        middle = diagram.sel(
+            {parameter: below if int(diagram["period"].sel({parameter: below})) == 1 else above}
         )
         rig, excitation = RIG, shaken(frequency)
         if parameter == "frequency":
@@ -111,8 +111,8 @@ def test_the_mirror_image():
     rig = RIG.replace(left=RIG.left.replace(gap=6e-3))
     turned = rig.replace(right=rig.left, left=rig.right)
     one, other = (
-        vi.bifurcation_diagram(vi.Rig(given, shaken(1.3, phase)), {"amplitude": (0.3, 0.6)}, 7)
-        for given, phase in ((rig, 0.2), (turned, 0.2 + np.pi))
+        vi.bifurcation_diagram(vi.Rig(oscillator, shaken(1.3, phase)), {"amplitude": (0.3, 0.6)}, 7)
+        for oscillator, phase in ((rig, 0.2), (turned, 0.2 + np.pi))
     )
     settled = one["period"].values > 0
     assert settled.any()
@@ -142,11 +142,11 @@ def test_up_is_down_where_there_is_one_motion():
 
 
 def test_threads_and_seeds():
-    given = (vi.Rig(RIG, shaken(1.1)), {"gap": (4e-3, 5e-3)}, 40)
+    arguments = (vi.Rig(RIG, shaken(1.1)), {"gap": (4e-3, 5e-3)}, 40)
     seen = []
     one, two = (
         vi.bifurcation_diagram(
-            *given,
+            *arguments,
             directions=(),
             random=2,
             seed=3,
@@ -199,6 +199,6 @@ def test_a_motion_that_is_given_up():
     ],
 )
 def test_refused(wrong):
-    given = {"vary": {"gap": (2e-3, 5e-3)}}
+    arguments = {"vary": {"gap": (2e-3, 5e-3)}}
     with pytest.raises(vi.InputError, match=f"^{next(iter(wrong))}"):
-        vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.1)), **{**given, **wrong})
+        vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.1)), **{**arguments, **wrong})

@@ -36,20 +36,20 @@ def beside_the_cusp(other: str, low: float, high: float):
 @pytest.mark.full
 def test_a_closed_curve_is_gone_round_once():
     """Its section moves on the way, and it begins beside a cusp."""
-    found = beside_the_cusp("gap", 1e-4, 3e-2)
-    assert found.attrs["ended_low"] == found.attrs["ended_high"] == "it is closed"
-    assert found.sizes["point"] < 300
-    assert found.sizes["cusp_number"] == 2
+    curve = beside_the_cusp("gap", 1e-4, 3e-2)
+    assert curve.attrs["ended_low"] == curve.attrs["ended_high"] == "it is closed"
+    assert curve.sizes["point"] < 300
+    assert curve.sizes["cusp_number"] == 2
 
 
 @pytest.mark.full
 def test_a_curve_that_creeps_ends_with_a_reason():
     """The fold comes so close to a grazing that no step leads on."""
-    found = beside_the_cusp("stiffness_ratio", 0.1, 500.0)
-    ends = [found.attrs["ended_low"], found.attrs["ended_high"]]
+    curve = beside_the_cusp("stiffness_ratio", 0.1, 500.0)
+    ends = [curve.attrs["ended_low"], curve.attrs["ended_high"]]
     assert "the range of stiffness_ratio ends at 500" in ends
     assert any("no fold could be found beyond" in end and "grazes" in end for end in ends)
-    assert found.sizes["point"] < 800
+    assert curve.sizes["point"] < 800
 
 
 def rig(cubic: float, damping: float, stops: int) -> vi.Oscillator:
@@ -61,15 +61,15 @@ def rig(cubic: float, damping: float, stops: int) -> vi.Oscillator:
 @cache
 def highest_fold(cubic: float, damping: float, stops: int):
     """The fold of the highest frequency, over frequency and amplitude."""
-    found = vi.branch(
+    branch = vi.branch(
         vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 3.9 / TURN)),
         vary={"frequency": (1.0 / TURN, 4.0 / TURN)},
     )
-    folds = np.flatnonzero(found["bifurcation_kind"].values == "fold")
-    row = folds[np.argmax(found["bifurcation_value"].values[folds])]
+    folds = np.flatnonzero(branch["bifurcation_kind"].values == "fold")
+    row = folds[np.argmax(branch["bifurcation_value"].values[folds])]
     return vi.bifurcation_curve(
         vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 1.8 / TURN)),
-        found.isel(bifurcation=int(row)),
+        branch.isel(bifurcation=int(row)),
         vary=dict(zip(("frequency", "amplitude"), zip(LOW, HIGH, strict=True), strict=True)),
     )
 
@@ -88,7 +88,7 @@ def seen_by(oscillator: vi.Oscillator, shaken: vi.Harmonic, section, period: int
 
 def looked_at(data, oscillator: vi.Oscillator) -> tuple[np.ndarray, ...]:
     """Of each point, by the rig itself: residual, distance of a multiplier from 1, extremes."""
-    found = []
+    rows = []
     for k in range(data.sizes["point"]):
         section = data["section"].isel(point=k)
         shaken = vi.Harmonic(float(data["amplitude"][k]), float(data["frequency"][k]))
@@ -98,8 +98,8 @@ def looked_at(data, oscillator: vi.Oscillator) -> tuple[np.ndarray, ...]:
         seen = vi.simulate(vi.Rig(oscillator, shaken), 1, section, samples=128)[
             "displacement"
         ].values
-        found.append((orbit.facts[RESIDUAL], miss, seen.min(), seen.max()))
-    residual, miss, least, most = np.array(found).T
+        rows.append((orbit.facts[RESIDUAL], miss, seen.min(), seen.max()))
+    residual, miss, least, most = np.array(rows).T
     return residual, miss, np.column_stack([least, most])
 
 
@@ -199,10 +199,10 @@ def at(side: np.ndarray, size: float) -> float:
 def folds_of_branch(cubic: float, damping: float, size: float) -> np.ndarray:
     """Ω of the folds on the branch at one amplitude, which knows nothing of the curve."""
     shaken = vi.Harmonic(size, 3.0 / TURN)
-    found = vi.branch(
+    branch = vi.branch(
         vi.Rig(rig(cubic, damping, 1), shaken), vary={"frequency": (0.9 / TURN, 3.0 / TURN)}
     )
-    return TURN * found["bifurcation_value"].values[found["bifurcation_kind"].values == "fold"]
+    return TURN * branch["bifurcation_value"].values[branch["bifurcation_kind"].values == "fold"]
 
 
 @pytest.mark.parametrize("pair", [("frequency", "amplitude"), ("gap", "frequency")])
@@ -227,13 +227,13 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
     """The fold begins as that of a motion that is its own mirror image."""
     oscillator = CASE.oscillator
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.branch(vi.Rig(oscillator, shaken), vary={"frequency": (1.0, 4.0)})
-    row = list(found["bifurcation_kind"].values).index("fold")
-    assert found["bifurcation_antisymmetric"][row]
+    branch = vi.branch(vi.Rig(oscillator, shaken), vary={"frequency": (1.0, 4.0)})
+    row = list(branch["bifurcation_kind"].values).index("fold")
+    assert branch["bifurcation_antisymmetric"][row]
     gap = oscillator.right.gap
     data = vi.bifurcation_curve(
         vi.Rig(oscillator, shaken),
-        found.isel(bifurcation=row),
+        branch.isel(bifurcation=row),
         vary={"frequency": (0.3, 6.0), "stops.right.gap": (0.5 * gap, 1.5 * gap)},
     )
     for wide in (0.6 * gap, 1.3 * gap):
@@ -253,13 +253,15 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
 def test_no_step_lands_on_the_curve_beside_it():
     """1e-5 from a grazing on its way, behind which motions with one contact more fold as well."""
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)})
-    value, contacts = found["bifurcation_value"].values, found["bifurcation_contacts"].values
-    folds = (found["bifurcation_kind"].values == "fold") & (contacts == "7R 4L")
+    diagram = vi.resonance_diagram(
+        vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)}
+    )
+    value, contacts = diagram["bifurcation_value"].values, diagram["bifurcation_contacts"].values
+    folds = (diagram["bifurcation_kind"].values == "fold") & (contacts == "7R 4L")
     row = np.flatnonzero(folds & (np.abs(value - 1.0082179) < 1e-6))[0]
     data = vi.bifurcation_curve(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
-        found.isel(bifurcation=int(row)),
+        diagram.isel(bifurcation=int(row)),
         vary={"frequency": (0.3, 3.0), "amplitude": (0.1, 2.0)},
     )
     for k in range(data.sizes["point"]):

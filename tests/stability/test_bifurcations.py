@@ -41,8 +41,8 @@ def test_no_pair_passes_the_circle_at_no_damping(left):
 def test_grazings_tell_the_contacts_on_both_sides():
     data = diagram("B2-G1-A3", 0.8, 4.0)
     (row,) = np.flatnonzero(data["bifurcation_kind"].values == "grazing")
-    told = data["bifurcation_contacts"].values[row]
-    assert sorted(told.split(" | ")) == ["0R 0L", "1R 1L"]
+    contacts = data["bifurcation_contacts"].values[row]
+    assert sorted(contacts.split(" | ")) == ["0R 0L", "1R 1L"]
 
 
 def test_a_fold_beside_a_period_doubling_is_a_fold():

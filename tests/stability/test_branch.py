@@ -70,11 +70,11 @@ class TestPublishedRigs:
         case = vi.laboratory.case(code)
         data = diagram(code, 0.8, 4.0)
         limits = np.concatenate([values(data, "fold"), values(data, "grazing")])
-        found = features(
+        curve_features = features(
             vi.sweep(vi.Rig(case.oscillator, case.amplitude), np.arange(800, 4001, 4) / 1000)
         )
-        assert len(found.jumps) >= 2
-        for jump in found.jumps:
+        assert len(curve_features.jumps) >= 2
+        for jump in curve_features.jumps:
             lower, upper = sorted([jump.before, jump.after])
             assert any(lower - 1e-9 <= value <= upper + 1e-9 for value in limits)
 
@@ -116,7 +116,7 @@ def test_ends_are_told():
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "message"),
     [
         ({"vary": {"colour": (1.0, 2.0)}}, "^vary: 'colour' is unknown"),
         (
@@ -129,9 +129,9 @@ def test_ends_are_told():
         ({"vary": {"right.gap": (0.0, 1e-3)}}, r"^vary\['right\.gap'\]: .* does not contain"),
     ],
 )
-def test_refused(wrong, told):
+def test_refused(wrong, message):
     case = vi.laboratory.case("B2-G1-A3")
-    with pytest.raises(vi.InputError, match=told):
+    with pytest.raises(vi.InputError, match=message):
         vi.branch(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
             **{"vary": {"frequency": (0.3, 4.0)}, **wrong},

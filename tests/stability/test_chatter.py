@@ -47,7 +47,7 @@ def test_a_branch_does_not_come_back_along_the_orbits_at_rest(bouncing):
 def test_a_release_at_the_section_is_no_grazing():
     """A wall at the place of rest is left where the acceleration of the base changes its sign."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.RigidStop(0.7, 0.0))
-    found = [
+    grazings = [
         values(
             vi.branch(
                 vi.Rig(rig, vi.Harmonic(1.0, 0.05, phase)), vary={"frequency": (0.03, 0.064)}
@@ -56,7 +56,7 @@ def test_a_release_at_the_section_is_no_grazing():
         )
         for phase in (0.0, 1.0)
     ]
-    assert [len(one) for one in found] == [0, 0]
+    assert [len(one) for one in grazings] == [0, 0]
 
 
 def test_a_grazing_of_the_other_wall_between_two_chatters_is_one():

@@ -30,8 +30,8 @@ def test_with_and_without_impact():
 
 
 def test_every_start_is_accounted_for():
-    found = motions("B2-G1-A3", 2.6)
-    names = ", ".join(m.attrs["starts"] for m in found).split(", ")
+    attractors = motions("B2-G1-A3", 2.6)
+    names = ", ".join(m.attrs["starts"] for m in attractors).split(", ")
     assert sorted(names) == sorted(
         ["rest", "forward branch", "backward branch", *(f"random {i}" for i in range(1, 13))]
     )
@@ -54,11 +54,11 @@ def test_motions_that_differ_by_whole_cycles_are_one():
     omega = 0.81
     shaken = vi.Harmonic(0.7 * omega**2, omega / (2 * np.pi), np.pi)
     starts = {f"given {i}": vi.State(0.2 * i, 0.1, phase=np.pi) for i in range(5)}
-    found = find_motions(vi.Rig(rig, shaken), starts=starts, random=0, samples=8)
-    five = [m for m in found if int(m["period"]) == 5]
+    attractors = find_motions(vi.Rig(rig, shaken), starts=starts, random=0, samples=8)
+    five = [m for m in attractors if int(m["period"]) == 5]
     assert len(five) == 1
     assert five[0].attrs["starts"].count("given") >= 2
-    assert not any(bool(m["mirror_pair"]) for m in found)  # one bumper: no mirror image
+    assert not any(bool(m["mirror_pair"]) for m in attractors)  # one bumper: no mirror image
 
 
 def test_the_same_seed_finds_the_same():
@@ -79,10 +79,10 @@ def test_frequencies_of_the_sweeps():
     """A forward sweep that begins above the jump does not arrive on the large motion."""
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.6)
-    found = find_motions(
+    attractors = find_motions(
         vi.Rig(case.oscillator, shaken), frequencies=[2.59, 2.61, 3.0], random=0, samples=8
     )
-    assert [m.attrs["starts"] for m in found] == ["rest, forward branch, backward branch"]
+    assert [m.attrs["starts"] for m in attractors] == ["rest, forward branch, backward branch"]
 
 
 @pytest.mark.parametrize(
@@ -106,26 +106,26 @@ def test_starts_with_a_phase_of_their_own():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 1.5)
     part = vi.simulate(vi.Rig(case.oscillator, shaken), 30.25, samples=0)
-    found = find_motions(
+    attractors = find_motions(
         vi.Rig(case.oscillator, shaken),
         random=0,
         frequencies=[1.45],
         starts={"x": vi.State(0.0, 0.0, phase=1.0), "y": part},
         samples=8,
     )
-    assert len(found) == 1
-    assert found[0].attrs["starts"] == "rest, forward branch, x, y"
+    assert len(attractors) == 1
+    assert attractors[0].attrs["starts"] == "rest, forward branch, x, y"
 
 
 def test_the_event_limit():
     case = vi.laboratory.case("B3-10mm-A3")
     with pytest.warns(RuntimeWarning, match="max_events"):
-        found = find_motions(
+        attractors = find_motions(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), max_events=6, samples=8
         )
-    given_up = [m for m in found if "max_events" in m.attrs["message"]]
+    given_up = [m for m in attractors if "max_events" in m.attrs["message"]]
     assert len(given_up) == 1
-    names = ", ".join(m.attrs["starts"] + ", " + m.attrs["mirrored_starts"] for m in found)
+    names = ", ".join(m.attrs["starts"] + ", " + m.attrs["mirrored_starts"] for m in attractors)
     assert all(f"random {i}" in names for i in range(1, 13))
 
 
@@ -135,19 +135,21 @@ def test_random_starts_between_walls():
     bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", "-1 mm")
     rig = vi.Oscillator("550 kg", isolator, vi.RigidStop(0.6, "5 mm"), bumper)
     shaken = vi.Harmonic("0.05 g", "1.78 Hz")
-    found = find_motions(vi.Rig(rig, shaken), frequencies=[1.78, 2.0], random=4, samples=8)
-    names = {name for one in found for name in one.attrs["starts"].split(", ")}
+    attractors = find_motions(vi.Rig(rig, shaken), frequencies=[1.78, 2.0], random=4, samples=8)
+    names = {name for one in attractors for name in one.attrs["starts"].split(", ")}
     assert {f"random {i}" for i in range(1, 5)} <= names
-    assert all(float(one["displacement_max"]) == pytest.approx(5e-3, rel=1e-12) for one in found)
+    assert all(
+        float(one["displacement_max"]) == pytest.approx(5e-3, rel=1e-12) for one in attractors
+    )
 
 
 def test_a_mass_that_a_preload_presses_against_a_wall_starts_at_its_equilibrium() -> None:
     """At u = 0 it would lie inside the wall. Chaotic motions surround a periodic one."""
     wall = vi.Oscillator("550 kg", vi.Isolator("26 kN/m", "0.2 kN s/m"), None, WALL)
     rig = vi.Rig(wall, "0.3 g")
-    found = vi.coexisting_motions(rig, frequency=0.6, random=12, exponent_cycles=2000)
-    assert "periodic" in found["motion"].values
-    assert (found["displacement_min"] >= 0.02 - 1e-12).all()
+    attractors = vi.coexisting_motions(rig, frequency=0.6, random=12, exponent_cycles=2000)
+    assert "periodic" in attractors["motion"].values
+    assert (attractors["displacement_min"] >= 0.02 - 1e-12).all()
     with pytest.raises(vi.InputError, match=r"rigid left stop; pass at least 0\.02 m"):
         vi.simulate(rig, 1.0, start=vi.State(0.0), frequency=0.6)
 

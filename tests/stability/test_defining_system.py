@@ -76,10 +76,10 @@ def test_a_curve_of_folds_warns_of_nothing():
     """On its way Newton's method meets maps so steep that squares of their slopes overflow."""
     stop = vi.Bumper(stiffness=680e3, damping=1e3, gap=5e-3)
     rig = vi.Oscillator(550.0, vi.Isolator(26.3e3, 1.14e3), stop, stop)
-    found = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", 4.0)), vary={"frequency": (1.5, 4.0)})
+    branch = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", 4.0)), vary={"frequency": (1.5, 4.0)})
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic("0.05 g", 2.0)),
-        found.isel(bifurcation=1),
+        branch.isel(bifurcation=1),
         vary={"frequency": (0.3, 8.0), "amplitude": (0.05, 5.0)},
     )
     for end in ("ended_low", "ended_high"):

@@ -112,9 +112,9 @@ def test_a_motion_that_is_given_up():
     ],
 )
 def test_refused(wrong):
-    given = {"rigs": [vi.laboratory.case("B2-G1-A3")], "frequencies": [2.0], "cycles": 10}
+    arguments = {"rigs": [vi.laboratory.case("B2-G1-A3")], "frequencies": [2.0], "cycles": 10}
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
-        vi.lyapunov_exponents(**{**given, **wrong})
+        vi.lyapunov_exponents(**{**arguments, **wrong})
 
 
 @pytest.mark.parametrize("damping", [0.1, 2.0, 6.0, 10.0])
@@ -163,7 +163,7 @@ def test_over_any_parameters():
 
 
 @pytest.mark.parametrize(
-    ("vary", "told"),
+    ("vary", "message"),
     [
         ({"frequency": [1.0]}, "vary: 'frequency' is set by the argument frequencies; remove it"),
         ({"colour": [1.0]}, "vary: 'colour'"),
@@ -172,8 +172,8 @@ def test_over_any_parameters():
         ({"cubic": [1.0]}, "cubic"),
     ],
 )
-def test_values_that_are_refused(vary, told):
-    with pytest.raises(vi.InputError, match=told):
+def test_values_that_are_refused(vary, message):
+    with pytest.raises(vi.InputError, match=message):
         vi.lyapunov_exponents(["B2-G1-A3"], [2.0], 10, vary=vary)
 
 

@@ -32,8 +32,8 @@ def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, m
     ended = []
     turns_into_flight = followed.turns_into_flight
 
-    def seen(*given):
-        ended.append(turns_into_flight(*given))
+    def seen(*arguments):
+        ended.append(turns_into_flight(*arguments))
         return ended[-1]
 
     def turns() -> list[float]:

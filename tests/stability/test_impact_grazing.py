@@ -39,8 +39,8 @@ def test_from_free_flight_to_impacts_and_back(left, frequency):
     np.testing.assert_allclose(
         np.sort(grazing["bifurcation_value"]), reaches(0.025, 0.6, 3.0), rtol=1e-10
     )
-    told = "0R | 1R" if left is None else "0R 0L | 1R 1L"
-    assert set(grazing["bifurcation_contacts"].values) == {told}
+    contacts = "0R | 1R" if left is None else "0R 0L | 1R 1L"
+    assert set(grazing["bifurcation_contacts"].values) == {contacts}
     assert float(data["displacement_max"].max()) == pytest.approx(0.025, rel=1e-12)
     # Just behind it the multiplier of the impact is large: the map has the slope of a square root.
     assert float(np.abs(data["multiplier_real"]).max()) > 30.0
@@ -83,10 +83,10 @@ def test_the_margin_goes_on_through_the_grazing(side, clear):
     fam = family(vi.Rig(rig, vi.Harmonic(swing * abs(response), w / math.tau, phase)), "frequency")
     section = Section(fam, 1, False, np.ones(5))
     point = np.array([-sign * swing, 0.0, 0.0, 0.0, 0.0, w / math.tau])
-    status, found, _ = evaluated(section, point, 0.0)
+    status, here, _ = evaluated(section, point, 0.0)
     assert status is Status.DONE
-    assert sum(found.contacts) == (clear < 0.0)
-    assert margin_of(found) == pytest.approx(clear, rel=2.0 * abs(clear) + 1e-9)
+    assert sum(here.contacts) == (clear < 0.0)
+    assert margin_of(here) == pytest.approx(clear, rel=2.0 * abs(clear) + 1e-9)
 
 
 @pytest.mark.parametrize(
@@ -103,9 +103,9 @@ def test_a_branch_that_is_born_in_the_grazing_of_free_flight_ends_there(gap, lef
     ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
     assert f"it meets the orbits {whose} at {grazes:.9g} Hz, where they graze" in ended
     for i in branches:
-        told = listed(data.isel(bifurcation=data["bifurcation_branch"].values == i))
+        bifurcations = listed(data.isel(bifurcation=data["bifurcation_branch"].values == i))
         # The mirror image of an event is one on the other side.
-        assert len(told) == len(set(told))
+        assert len(bifurcations) == len(set(bifurcations))
 
 
 @pytest.mark.parametrize(
@@ -140,7 +140,9 @@ def listed(data) -> list[tuple[float, str, str]]:
     """Where each bifurcation is, its kind, and what touches."""
     names = ("value", "kind", "contacts")
     rows = zip(*(data[f"bifurcation_{name}"].values for name in names), strict=True)
-    return sorted((round(float(value), 7), str(kind), str(told)) for value, kind, told in rows)
+    return sorted(
+        (round(float(value), 7), str(kind), str(contacts)) for value, kind, contacts in rows
+    )
 
 
 @pytest.fixture(scope="module")
@@ -161,7 +163,7 @@ def test_a_chatter_loses_its_impacts_one_by_one(chattering):
     for data in chattering:
         assert data.attrs["ended_low"] == "the range ends at ω = 0.473752172"
         assert data.attrs["ended_high"] == "the range ends at ω = 0.50893801"
-        found = {
+        bifurcations = {
             (kind, contacts): (value, turns)
             for kind, contacts, value, turns in zip(
                 data["bifurcation_kind"].values,
@@ -172,12 +174,12 @@ def test_a_chatter_loses_its_impacts_one_by_one(chattering):
             )
         }
         for impacts in range(6, 23):
-            fold, folds = found["fold", f"{impacts}R"]
-            grazing, turns = found["grazing", f"{impacts - 1}R | {impacts}R"]
+            fold, folds = bifurcations["fold", f"{impacts}R"]
+            grazing, turns = bifurcations["grazing", f"{impacts - 1}R | {impacts}R"]
             assert grazing < fold
             assert folds
             assert turns
-        assert len(found) == data.sizes["bifurcation"]  # nothing is listed twice
+        assert len(bifurcations) == data.sizes["bifurcation"]  # nothing is listed twice
 
 
 @pytest.mark.full

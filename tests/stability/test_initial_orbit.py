@@ -25,8 +25,8 @@ def doubled():
 
 def test_another_orbit_than_the_motion_from_rest_is_told():
     rig, shaken = doubled()
-    told = "period 1 and is not the motion from rest, which has period 2"
-    with pytest.warns(RuntimeWarning, match=told):
+    message = "period 1 and is not the motion from rest, which has period 2"
+    with pytest.warns(RuntimeWarning, match=message):
         data = vi.orbit(vi.Rig(rig, shaken), period=1)
     assert int(data["period"]) == 1
     with pytest.warns(RuntimeWarning, match="not the motion from rest, which does not settle"):

@@ -14,8 +14,8 @@ CASE = vi.laboratory.case("B3-10mm-A3")
 
 
 def test_an_orbit_by_its_multipliers():
-    found = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
-    kind, damping, cycles, status = judge_orbit(found, 100)
+    motion = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
+    kind, damping, cycles, status = judge_orbit(motion, 100)
     assert (kind.motion, kind.period, cycles, status) == ("periodic", 1, 2, Status.DONE)
     orbit = vi.orbit(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)))
     moduli = np.hypot(orbit["multiplier_real"], orbit["multiplier_imag"]).values
@@ -25,8 +25,8 @@ def test_an_orbit_by_its_multipliers():
 
 
 def test_an_orbit_that_meets_the_event_limit_is_not_judged():
-    found = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
-    kind, damping, _, status = judge_orbit(found, 1)
+    motion = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
+    kind, damping, _, status = judge_orbit(motion, 1)
     assert status is Status.TOO_MANY_EVENTS
     assert (kind.motion, kind.evidence) == ("undecided", status.advice)
     assert np.isnan(kind.exponents).all()
@@ -34,11 +34,11 @@ def test_an_orbit_that_meets_the_event_limit_is_not_judged():
 
 
 def test_a_wandering_motion_that_meets_the_event_limit():
-    found = approach(
+    motion = approach(
         vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.06)), vi.State(), max_cycles=50
     )
-    assert found.status is Status.NOT_SETTLED
-    *_, status = judge_wandering(found, found.state.copy(), 100, 1)
+    assert motion.status is Status.NOT_SETTLED
+    *_, status = judge_wandering(motion, motion.state.copy(), 100, 1)
     assert status is Status.TOO_MANY_EVENTS
-    kind, _, cycles, status = judge_wandering(found, found.state.copy(), 1000, 100)
+    kind, _, cycles, status = judge_wandering(motion, motion.state.copy(), 1000, 100)
     assert (kind.motion, cycles, status) == ("chaotic", 1000, Status.DONE)

@@ -47,9 +47,9 @@ def test_growth_like_a_shear_is_quasi_periodic():
 
 def test_a_long_period_is_found():
     points = np.tile(noise(37, 4), (600, 1))[:20_000]
-    found = judge(growth(-0.1, 0.3), points)
-    assert (found.motion, found.period) == ("periodic", 37)
-    assert found.evidence == "the section repeats after 37 cycles"
+    verdict = judge(growth(-0.1, 0.3), points)
+    assert (verdict.motion, verdict.period) == ("periodic", 37)
+    assert verdict.evidence == "the section repeats after 37 cycles"
     assert recurrence(points) == 37
     assert recurrence(WANDERING) == 0
     # One near return is no period.
@@ -59,9 +59,9 @@ def test_a_long_period_is_found():
 
 
 def test_too_few_cycles():
-    found = judge(growth(0.5, 1.0, 10), WANDERING[:10])
-    assert found.motion == "undecided"
-    assert "10 cycles" in found.evidence
+    verdict = judge(growth(0.5, 1.0, 10), WANDERING[:10])
+    assert verdict.motion == "undecided"
+    assert "10 cycles" in verdict.evidence
     assert judge(growth(0.5, 0.1, 0), WANDERING[:0]).motion == "undecided"
 
 
@@ -76,8 +76,8 @@ def test_a_bounded_growth_over_few_cycles_says_nothing():
 @pytest.mark.parametrize(("cycles", "kind"), [(1000, "undecided"), (20_000, "chaotic")])
 def test_weak_chaos_is_never_a_torus(cycles, kind):
     """Its growth over few cycles is less than that on some tori."""
-    found = judge(growth(0.01, 0.15, cycles), WANDERING[:cycles])
-    assert found.motion == kind
+    verdict = judge(growth(0.01, 0.15, cycles), WANDERING[:cycles])
+    assert verdict.motion == kind
     assert judge(growth(0.0, 0.15, 1000), WANDERING[:1000]).bounded
 
 
@@ -86,11 +86,11 @@ def test_weak_chaos_of_neighbours(tmp_path, capsys):
     path = tmp_path / "neighbours.toml"
     assert main(["init", str(path), "--kind", "neighbours"]) == 0
     options = {"samples": 4, "window": 4, "exponent_cycles": 1000}
-    found = [
+    kinds = [
         vi.steady(path, frequency=frequency, **options)["motion"].item()
         for frequency in (2.7903, 2.8005, 2.802, 2.8025)
     ]
-    assert not {"quasi-periodic", "periodic"} & set(found)
+    assert not {"quasi-periodic", "periodic"} & set(kinds)
     data = vi.bifurcation_diagram(path, {"frequency": (2.8025, 2.803)}, 2)
     assert data["motion"].sel(frequency=2.8025).values.tolist() == ["chaotic", "chaotic"]
 
@@ -118,17 +118,17 @@ def test_no_torus_where_areas_shrink_as_the_damping_says():
         (0.04, 0.02, "quasi-periodic"),
     ):
         logarithms = np.column_stack([first, -total - first])
-        found = judge(logarithms, section, np.full(cycles, damping))
-        assert found.motion == kind
-        assert (found.returns > 0) == (kind == "undecided")
+        verdict = judge(logarithms, section, np.full(cycles, damping))
+        assert verdict.motion == kind
+        assert (verdict.returns > 0) == (kind == "undecided")
 
 
 def test_uncertainty_is_that_of_the_mean():
     """Of independent cycles it is σ/√N; of slow drifts it is larger."""
-    found = [averages(growth(0.3, 1.0, 3200, seed)) for seed in range(300)]
-    many, told = [mean[0] for mean, _ in found], [spread[0] for _, spread in found]
-    assert np.mean(told) == pytest.approx(1.0 / math.sqrt(3200), rel=0.05)
-    assert np.std(many) == pytest.approx(np.mean(told), rel=0.15)
+    estimates = [averages(growth(0.3, 1.0, 3200, seed)) for seed in range(300)]
+    many, spreads = [mean[0] for mean, _ in estimates], [spread[0] for _, spread in estimates]
+    assert np.mean(spreads) == pytest.approx(1.0 / math.sqrt(3200), rel=0.05)
+    assert np.std(many) == pytest.approx(np.mean(spreads), rel=0.15)
     slow = np.repeat(noise(32), 100)
     _, spread = averages(np.column_stack([slow, slow]))
     assert spread[0] > 0.1
@@ -217,8 +217,8 @@ def test_chaos_by_the_zero_one_test():
         ]
         distance.append(float(abs(ends[0] - ends[1])[:2].max()))
     rate = np.polyfit([10, 20, 30, 40, 50, 60, 70], np.log(distance), 1)[0]
-    told = float(settled("chaos")["exponents"][0]) / shaken.frequency
-    assert rate == pytest.approx(told, rel=0.5)
+    expected = float(settled("chaos")["exponents"][0]) / shaken.frequency
+    assert rate == pytest.approx(expected, rel=0.5)
     assert distance[-1] > 1e3 * distance[0]
 
 
@@ -253,9 +253,9 @@ def test_a_given_displacement_of_the_base_is_the_same_at_each_frequency(omega, w
     one, other = (vi.simulate(vi.Rig(rig, shaken), 20, samples=8) for shaken in (plain, moved))
     np.testing.assert_allclose(one["displacement"], other["displacement"], atol=1e-10)
     known = settled(which)
-    found = vi.steady(vi.Rig(rig, moved), None, 4, window=4000, max_cycles=5000)
-    assert found["motion"].item() == known["motion"].item()
-    assert int(found["period"]) == int(known["period"])
+    motion = vi.steady(vi.Rig(rig, moved), None, 4, window=4000, max_cycles=5000)
+    assert motion["motion"].item() == known["motion"].item()
+    assert int(motion["period"]) == int(known["period"])
 
 
 def test_it_grazes_where_the_free_flight_reaches_the_stop():
@@ -292,9 +292,9 @@ def spiral(cycles: int, multiplier: complex, scale: float = 1.0) -> np.ndarray:
 def test_a_motion_that_grows_has_no_kind():
     growing = np.linspace(1.0, 4.0, 4000)[:, np.newaxis] * noise(4000, 2, seed=7)
     section = np.column_stack([growing, np.zeros((4000, 3))])
-    told = judge(growth(0.0, 0.01, 4000), section)
-    assert told.motion == "undecided"
-    assert "the motion grows" in told.evidence
+    verdict = judge(growth(0.0, 0.01, 4000), section)
+    assert verdict.motion == "undecided"
+    assert "the motion grows" in verdict.evidence
 
 
 def test_settling_is_seen_until_nothing_is_left():

@@ -87,8 +87,8 @@ def test_a_closed_branch_of_a_longer_period_is_gone_round_once():
     )
     assert data.attrs["closed"] == 1
     assert data.sizes["point"] < 200
-    found = data["bifurcation_value"].values
-    assert len(found) == len(np.unique(np.round(found, 9))) == 8
+    changes = data["bifurcation_value"].values
+    assert len(changes) == len(np.unique(np.round(changes, 9))) == 8
 
 
 def test_each_orbit_of_a_doubled_period_is_listed_once():

@@ -59,9 +59,9 @@ def test_basins_lead_to_a_branch_that_random_starts_miss():
     asked = {"rig": vi.Rig(rig, 2.0), "vary": {"frequency": (hertz(4.0), hertz(8.0))}}
     missed = vi.resonance_diagram(**asked, longest=5, random=40)
     assert not (missed["period"] == 5).any()
-    found = vi.basins(vi.Rig(rig, vi.Harmonic(2.0, hertz(6.0))), nodes=40)
-    assert float(found["share"].min()) < 0.01
-    data = vi.resonance_diagram(**asked, longest=5, basins=found)
+    basins = vi.basins(vi.Rig(rig, vi.Harmonic(2.0, hertz(6.0))), nodes=40)
+    assert float(basins["share"].min()) < 0.01
+    data = vi.resonance_diagram(**asked, longest=5, basins=basins)
     isola = data["period"].values == 5
     (number,) = np.unique(data["branch"].values[isola])
     assert data.attrs[f"branch_{number}_closed"] == 1
@@ -77,9 +77,9 @@ def test_basins_of_a_rig_whose_bumpers_remember():
     slow = vi.Bumper(40.0, 20.0, 1.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), slow, None)
     shaking = vi.Harmonic(2.0, hertz(2.0))
-    found = vi.basins(vi.Rig(rig, shaking), nodes=5)
+    basins = vi.basins(vi.Rig(rig, shaking), nodes=5)
     over = {"random": 0, "starts": 2}
-    data = vi.resonance_diagram(vi.Rig(rig, shaking), {"gap": (0.8, 1.2)}, **over, basins=[found])
+    data = vi.resonance_diagram(vi.Rig(rig, shaking), {"gap": (0.8, 1.2)}, **over, basins=[basins])
     assert int(data["branch"].max()) == 0
 
 
@@ -112,14 +112,14 @@ def test_what_settles_lies_on_a_branch(parameter, low, high):
     """Each motion of a bifurcation diagram of period 1 to 4 is near an orbit of its period."""
     shaking = vi.Harmonic(2.0, hertz(2.4))
     data = vi.resonance_diagram(vi.Rig(ONE_STOP, shaking), {parameter: (low, high)})
-    found = vi.bifurcation_diagram(
+    diagram = vi.bifurcation_diagram(
         vi.Rig(ONE_STOP, shaking), {parameter: (low, high)}, 9, random=2, seed=5
     )
     x, y = data[parameter].values, data["displacement_excursion"].values
-    for i, value in enumerate(found[parameter].values[1:-1], start=1):
+    for i, value in enumerate(diagram[parameter].values[1:-1], start=1):
         known = excursions(data, float(value))
-        for start in range(found.sizes["start"]):
-            one = found.isel({"start": start, parameter: i})
+        for start in range(diagram.sizes["start"]):
+            one = diagram.isel({"start": start, parameter: i})
             if 0 < int(one["period"]) <= 4:
                 size = float(one["displacement_excursion"])
                 near = np.abs(np.array(known) - size).min(initial=np.inf)
@@ -141,7 +141,7 @@ def test_the_bifurcations_of_a_branch_are_among_them():
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "message"),
     [
         ({"vary": {"gap": (1.0, 2.0)}}, "frequency: missing"),
         ({"frequency": 2.0}, "frequency: 2.0, but the frequency is the varied"),
@@ -155,14 +155,14 @@ def test_the_bifurcations_of_a_branch_are_among_them():
         ),
     ],
 )
-def test_refused(wrong, told):
-    given = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (1.0, 2.0)}}
-    with pytest.raises(vi.InputError, match=told):
-        vi.resonance_diagram(**{**given, **wrong})
+def test_refused(wrong, message):
+    arguments = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (1.0, 2.0)}}
+    with pytest.raises(vi.InputError, match=message):
+        vi.resonance_diagram(**{**arguments, **wrong})
 
 
 @pytest.mark.parametrize(
-    ("changed", "told"),
+    ("changed", "message"),
     [
         (
             {"vary": {"frequency": (1.0, 2.0)}},
@@ -176,11 +176,11 @@ def test_refused(wrong, told):
         ({"basins": [xr.Dataset()]}, r"basins\[0\]: this is not a result of basins"),
     ],
 )
-def test_basins_that_are_refused(changed, told):
-    found = vi.basins(vi.Rig(ONE_STOP, vi.Harmonic(1.0, 0.3)), nodes=3)
-    given = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (0.2, 0.4)}, "basins": found}
-    with pytest.raises(vi.InputError, match=told):
-        vi.resonance_diagram(**{**given, **changed}, starts=1)
+def test_basins_that_are_refused(changed, message):
+    basins = vi.basins(vi.Rig(ONE_STOP, vi.Harmonic(1.0, 0.3)), nodes=3)
+    arguments = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (0.2, 0.4)}, "basins": basins}
+    with pytest.raises(vi.InputError, match=message):
+        vi.resonance_diagram(**{**arguments, **changed}, starts=1)
 
 
 def test_where_no_orbit_is_found_it_is_an_error():

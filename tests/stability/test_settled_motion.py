@@ -16,37 +16,37 @@ SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
 
 
 def test_it_repeats_itself():
-    found = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
-    assert (found.status, found.period) == (Status.DONE, 1)
-    status, state = later(found, found.state, 1.0)
+    motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
+    assert (motion.status, motion.period) == (Status.DONE, 1)
+    status, state = later(motion, motion.state, 1.0)
     assert status is Status.DONE
-    assert state_distance(found, found.state, state, reach(found, found.state)) < 1e-11
+    assert state_distance(motion, motion.state, state, reach(motion, motion.state)) < 1e-11
 
 
 def test_a_start_as_the_engine_sees_it():
     start = vi.State(2e-3, -0.05)
     vector = engine_state(CASE.oscillator, start)
-    found = [approach(vi.Rig(CASE.oscillator, SHAKEN), given) for given in (start, vector)]
-    np.testing.assert_array_equal(found[0].state, found[1].state)
+    motions = [approach(vi.Rig(CASE.oscillator, SHAKEN), initial) for initial in (start, vector)]
+    np.testing.assert_array_equal(motions[0].state, motions[1].state)
     np.testing.assert_array_equal(vector, engine_state(CASE.oscillator, start))
 
 
 def test_the_phase_of_a_start_is_that_of_the_section():
-    found = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State(phase=1.3))
-    assert found.excitation == SHAKEN.replace(phase=1.3)
+    motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State(phase=1.3))
+    assert motion.excitation == SHAKEN.replace(phase=1.3)
 
 
 def test_the_mirror_image_half_a_cycle_later_is_a_motion():
-    found = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
-    _, half = later(found, found.state, 0.5)
+    motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
+    _, half = later(motion, motion.state, 0.5)
     image = approach(vi.Rig(CASE.oscillator, SHAKEN), mirror_image(half))
-    assert image.cycles < 16 < found.cycles
-    size = reach(found, found.state)
-    assert state_distance(found, image.state, mirror_image(half), size) < 1e-10
-    assert state_distance(found, image.state, found.state, size) > 1e-2  # one of a pair
+    assert image.cycles < 16 < motion.cycles
+    size = reach(motion, motion.state)
+    assert state_distance(motion, image.state, mirror_image(half), size) < 1e-10
+    assert state_distance(motion, image.state, motion.state, size) > 1e-2  # one of a pair
 
 
 @pytest.mark.parametrize("cycles", [0.5, 3.0])
 def test_a_limit_that_is_met_is_told(cycles):
-    found = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
-    assert later(found, found.state, cycles, max_events=1)[0] is Status.TOO_MANY_EVENTS
+    motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
+    assert later(motion, motion.state, cycles, max_events=1)[0] is Status.TOO_MANY_EVENTS

@@ -67,8 +67,8 @@ def test_a_study_file_without_units_counts_too(tmp_path):
         '[oscillator]\nmass = 3\nunits = "none"\nisolator = { stiffness = 2, damping = 0.3 }\n'
         "right = { stiffness = 40, damping = 1, gap = 2 }\n[excitation]\namplitude = 0.5\n"
     )
-    for given in (path, str(path)):
+    for source in (path, str(path)):
         with pytest.raises(vi.InputError, match="has a unit, but the rig has none"):
-            vi.branch(given, frequency=0.2, vary={"gap": ("5 mm", 3)})
+            vi.branch(source, frequency=0.2, vary={"gap": ("5 mm", 3)})
         with pytest.raises(vi.InputError, match="has a unit, but the rig has none"):
-            vi.branch(rig=given, frequency=0.2, vary={"gap": ("5 mm", 3)})
+            vi.branch(rig=source, frequency=0.2, vary={"gap": ("5 mm", 3)})

@@ -102,8 +102,8 @@ def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2e-5))
     data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), vary={"frequency": (0.1, 0.2)})
     assert "without bound" not in data.attrs["ended_high"]
-    told = "the motion grows beyond 1e+04 times the first orbit"
-    assert data.attrs["ended_high"].startswith(told)
+    reason = "the motion grows beyond 1e+04 times the first orbit"
+    assert data.attrs["ended_high"].startswith(reason)
 
 
 def test_a_motion_that_grows_with_the_amplitude_is_no_resonance():

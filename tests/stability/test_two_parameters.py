@@ -37,6 +37,6 @@ def test_pairs_of_parameters(pair, independent):
         p, q = 1.3 * made.family.value, 0.8 * made.value
         rig = vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0))
         there = made.other.vary(made.family.parameter.vary(rig, p), q)
-        found, expected = made.at_vectors(q).system(p), system_vector(there)
-        kept = [i for i in range(len(found)) if i not in RATES]
-        np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)
+        vector, expected = made.at_vectors(q).system(p), system_vector(there)
+        kept = [i for i in range(len(vector)) if i not in RATES]
+        np.testing.assert_allclose(vector[kept], expected[kept], rtol=1e-12)

@@ -66,8 +66,8 @@ def test_steps_and_rates(line, step):
 
 
 def test_two_steps_that_differ_are_both_kept():
-    found = read("fs = 100", "dt = 0.02 s")
-    assert (found.step.value, found.other_step.value) == (0.01, 0.02)
+    statements = read("fs = 100", "dt = 0.02 s")
+    assert (statements.step.value, statements.other_step.value) == (0.01, 0.02)
     assert read("fs = 100", "dt = 10 ms").other_step is None
 
 
@@ -87,8 +87,8 @@ def test_two_steps_that_differ_are_both_kept():
     ],
 )
 def test_peaks(line, value, unit, channel):
-    found = read(line).peaks
-    assert [(one.value, one.unit, one.channel) for one in found] == (
+    peaks = read(line).peaks
+    assert [(one.value, one.unit, one.channel) for one in peaks] == (
         [(value, unit, channel)] if value else []
     )
 
@@ -113,8 +113,8 @@ def test_peaks(line, value, unit, channel):
     ],
 )
 def test_units(line, units, hints):
-    found = read(line)
-    assert (found.units, found.hints) == (units, hints)
+    statements = read(line)
+    assert (statements.units, statements.hints) == (units, hints)
 
 
 def test_a_unit_of_times_and_a_duration():

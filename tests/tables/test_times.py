@@ -62,9 +62,9 @@ def test_stamps_across_midnights_months_and_years(form, start):
     if "%f" not in form:
         steps = np.arange(900.0)
     at = [datetime(*start) + timedelta(seconds=round(float(one), 3)) for one in steps]
-    found = [stamp(one.strftime(form)) for one in at]
-    assert all(found)
-    np.testing.assert_allclose(seconds_since_start(found), steps, atol=1e-9)
+    stamps = [stamp(one.strftime(form)) for one in at]
+    assert all(stamps)
+    np.testing.assert_allclose(seconds_since_start(stamps), steps, atol=1e-9)
 
 
 def test_the_order_of_a_date_is_the_one_that_is_stated_or_even():
@@ -79,8 +79,8 @@ def test_the_order_of_a_date_is_the_one_that_is_stated_or_even():
 
 
 def test_minutes_and_seconds_need_a_fraction():
-    found = [stamp(f"{59 + i // 60}:{i % 60:02d}.5") for i in range(120)]
-    np.testing.assert_array_equal(seconds_since_start(found), np.arange(120.0))
+    stamps = [stamp(f"{59 + i // 60}:{i % 60:02d}.5") for i in range(120)]
+    np.testing.assert_array_equal(seconds_since_start(stamps), np.arange(120.0))
 
 
 @pytest.mark.parametrize("text", ["1.234", "20.5.3", "1-2-3", "25:00:00", "12:00", "-1.5", "X", ""])

@@ -53,9 +53,9 @@ class Hands:
 def done(seconds, items, width=2, progress=None, message=0.0, task=lambda item, _: item):
     each = seconds if callable(seconds) else lambda _: seconds
     hands = Hands(each, width, message)
-    found = distribute(hands, task, items, len(items), progress)
-    assert len(found) == len(items)
-    for one, item in zip(found, items, strict=True):
+    results = distribute(hands, task, items, len(items), progress)
+    assert len(results) == len(items)
+    for one, item in zip(results, items, strict=True):
         np.testing.assert_array_equal(one, task(item, None))
     assert sum(hands.sizes) == len(items)
     return hands
@@ -134,10 +134,10 @@ def _bundle(task, items):
 
 
 def test_progress_is_told_and_nothing_at_all_is_nothing():
-    told = []
-    done(1e-3, range(500), progress=lambda *at: told.append(at))
-    assert told == sorted(told)
-    assert told[-1] == (500, 500)
+    counts = []
+    done(1e-3, range(500), progress=lambda *at: counts.append(at))
+    assert counts == sorted(counts)
+    assert counts[-1] == (500, 500)
     assert done(1.0, []).sizes == []
 
 
@@ -155,6 +155,6 @@ def test_a_bundle_says_how_long_it_took():
     import cloudpickle
 
     task = cloudpickle.dumps(lambda item, tally: (time.sleep(item), list(tally)))
-    found, seconds = bundle(task, cloudpickle.dumps([0.02, 0.03]))
-    assert pickle.loads(found) == [(None, [0, 0, 0])] * 2
+    packed, seconds = bundle(task, cloudpickle.dumps([0.02, 0.03]))
+    assert pickle.loads(packed) == [(None, [0, 0, 0])] * 2
     assert 0.05 <= seconds < 1.0

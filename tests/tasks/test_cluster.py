@@ -45,10 +45,10 @@ def on_threads():
 
 def test_sweeps(cluster):
     rigs = {"one": "B2-G1-A3", "two": "B3-G2-A2", "three": "B1-G1-A3"}
-    told = []
-    there = vi.sweeps(rigs, GRID, where=cluster, progress=lambda *at: told.append(at))
+    counts = []
+    there = vi.sweeps(rigs, GRID, where=cluster, progress=lambda *at: counts.append(at))
     assert there.identical(vi.sweeps(rigs, GRID))
-    assert told[-1] == (6 * len(GRID), 6 * len(GRID))
+    assert counts[-1] == (6 * len(GRID), 6 * len(GRID))
 
 
 def test_demands(cluster):
@@ -270,9 +270,9 @@ def test_workers_that_join_later_take_part():
 
 @pytest.mark.full
 def test_threads_and_a_cluster_exclude_one_another(cluster):
-    told = (
+    message = (
         r"^threads: 2 has no effect with where=.*, because each worker of a cluster sets its own "
         "number of threads; leave threads out, or pass where='threads' or 'processes'$"
     )
-    with pytest.raises(vi.InputError, match=told):
+    with pytest.raises(vi.InputError, match=message):
         vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)

@@ -49,8 +49,8 @@ def test_where_the_growth_of_disturbances_is_cut_changes_no_bit(isolator, monkey
     def rows():
         state = engine_state(one, vi.State())
         engine = prepare(vi.Rig(one, shaken))
-        status, found = engine.sections(state, CYCLES, transient=3, discard=5)
-        return status, found, state
+        status, growth = engine.sections(state, CYCLES, transient=3, discard=5)
+        return status, growth, state
 
     whole = rows()
     assert len(whole[1]) == CYCLES
@@ -69,21 +69,21 @@ def test_a_motion_in_a_task_that_is_not_wanted_ends():
 
 
 def test_what_a_task_waits_for_counts_no_step_of_it_and_ends_with_it():
-    told = []
+    counts = []
 
     def part(tally):
         tally[0] += 5
         return tally[0]
 
     def task(item, tally):
-        found = watched(part, 5)
+        total = watched(part, 5)
         tally[0] += item
-        return found
+        return total
 
-    assert each(task, [1, 2], steps=3, threads=1, progress=lambda *at: told.append(at)) == [5, 5]
-    assert told[-1] == (3, 3)
-    assert watched(part, 5, lambda *at: told.append(at)) == 5
-    assert told[-1] == (5, 5)
+    assert each(task, [1, 2], steps=3, threads=1, progress=lambda *at: counts.append(at)) == [5, 5]
+    assert counts[-1] == (3, 3)
+    assert watched(part, 5, lambda *at: counts.append(at)) == 5
+    assert counts[-1] == (5, 5)
 
     def unwanted(_, tally):
         tally[1] = 1
@@ -119,17 +119,17 @@ def test_tasks_of_a_task_end_with_it():
     ],
 )
 def test_progress_changes_nothing_and_ends_with_all(call):
-    told = []
-    xr.testing.assert_identical(call(progress=lambda *at: told.append(at)), call())
-    assert told
-    assert all(0 <= done <= total for done, total in told)
-    assert told[-1][0] == told[-1][1]
+    counts = []
+    xr.testing.assert_identical(call(progress=lambda *at: counts.append(at)), call())
+    assert counts
+    assert all(0 <= done <= total for done, total in counts)
+    assert counts[-1][0] == counts[-1][1]
 
 
 def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
-    now, told = [0.0], []
+    now, counts = [0.0], []
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    calls = Calls(10_000_000.5, lambda done, total: told.append((done, total)))
+    calls = Calls(10_000_000.5, lambda done, total: counts.append((done, total)))
     at, lengths = 0, []
     while at < 1_000_000:
         end = int(calls.end(at))
@@ -138,7 +138,7 @@ def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
         at = end
     assert lengths[:3] == [1, 8, 64]
     assert 0.05 <= 1e-5 * max(lengths) <= 0.8
-    assert told[0] == (1, 10_000_000)
+    assert counts[0] == (1, 10_000_000)
     assert calls.end(10_000_000) == 10_000_000.5
 
 

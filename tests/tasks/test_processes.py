@@ -40,17 +40,17 @@ def _ended(pid, patience=30.0):
 
 
 def test_each_item_once_and_in_order():
-    told, power = [], 2
-    found = each(
+    counts, power = [], 2
+    pairs = each(
         lambda item, _: (item**power, os.getpid()),  # a task need not have a name
         range(20),
         threads=TWO,
-        progress=lambda *at: told.append(at),
+        progress=lambda *at: counts.append(at),
     )
-    assert [value for value, _ in found] == [i**2 for i in range(20)]
-    assert os.getpid() not in {pid for _, pid in found}
-    assert told == sorted(told)
-    assert told[-1] == (20, 20)
+    assert [value for value, _ in pairs] == [i**2 for i in range(20)]
+    assert os.getpid() not in {pid for _, pid in pairs}
+    assert counts == sorted(counts)
+    assert counts[-1] == (20, 20)
 
 
 def test_the_same_processes_serve_again():
@@ -112,14 +112,14 @@ def test_ctrl_c_leaves_no_process():
 
 def _children(pid):
     """Processes that this one has started, and those which they have."""
-    found = []
+    children = []
     for path in Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):
             number, rest = path.read_text().split(" (", 1)
             state, parent = rest.rsplit(") ", 1)[1].split()[:2]
             if int(parent) == pid and state != "Z":
-                found += [int(number), *_children(int(number))]
-    return found
+                children += [int(number), *_children(int(number))]
+    return children
 
 
 def _runs(pid):

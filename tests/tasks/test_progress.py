@@ -147,37 +147,37 @@ def test_where_the_end_is_not_known_it_counts(monkeypatch):
     assert page.shown[0]["text/html"].startswith("<progress></progress> branch 7")
 
 
-def counted_and_ended(told):
-    *before, (done, total) = told
+def counted_and_ended(counts):
+    *before, (done, total) = counts
     assert before == [(i, None) for i in range(1, len(before) + 1)]
     assert done == total > 5
 
 
 def test_all_functions_tell_the_same(monkeypatch):
-    told: list[tuple[int, int | None]] = []
+    counts: list[tuple[int, int | None]] = []
 
     def note(done, total):
-        told.append((done, total))
+        counts.append((done, total))
 
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.resonance_diagram(
+    diagram = vi.resonance_diagram(
         vi.Rig(CASE.oscillator, CASE.amplitude), {"frequency": (1.0, 3.0)}, progress=note
     )
-    assert all(isinstance(total, int) for _, total in told)
-    assert len(told) >= found.sizes["point"] / 2  # at each point: one branch may take minutes
-    assert told[-1][0] == told[-1][1]
-    told.clear()
+    assert all(isinstance(total, int) for _, total in counts)
+    assert len(counts) >= diagram.sizes["point"] / 2  # at each point: one branch may take minutes
+    assert counts[-1][0] == counts[-1][1]
+    counts.clear()
     vi.branch(vi.Rig(CASE.oscillator, shaken), vary={"gap": (7e-3, 8e-3)}, progress=note)
-    counted_and_ended(told)
-    told.clear()
-    fold = found.isel(bifurcation=0)
+    counted_and_ended(counts)
+    counts.clear()
+    fold = diagram.isel(bifurcation=0)
     vi.bifurcation_curve(
         vi.Rig(CASE.oscillator, shaken),
         fold,
         vary={"frequency": (1.0, 4.0), "gap": (7e-3, 8e-3)},
         progress=note,
     )
-    counted_and_ended(told)
+    counted_and_ended(counts)
 
 
 def test_functions_that_take_long_take_it(monkeypatch):

@@ -11,28 +11,28 @@ from vibroimpact.tasks.threads import available, each
 
 @pytest.mark.parametrize("threads", [1, 3, None])
 def test_each_item_once_and_in_order(threads):
-    told = []
-    found = each(
+    counts = []
+    squares = each(
         lambda item, _: item**2,
         range(20),
         threads=threads,
-        progress=lambda *at: told.append(at),
+        progress=lambda *at: counts.append(at),
     )
-    assert found == [i**2 for i in range(20)]
-    assert told == sorted(told)
-    assert told[-1] == (20, 20)
+    assert squares == [i**2 for i in range(20)]
+    assert counts == sorted(counts)
+    assert counts[-1] == (20, 20)
     assert available() >= 1
     assert each(lambda item, _: item, []) == []
 
 
 def test_tasks_count_steps_of_their_own():
-    told = []
+    counts = []
 
     def task(item, tally):
         tally[0] += item
 
-    each(task, [1, 2, 3], steps=6, progress=lambda *at: told.append(at))
-    assert told[-1] == (6, 6)
+    each(task, [1, 2, 3], steps=6, progress=lambda *at: counts.append(at))
+    assert counts[-1] == (6, 6)
 
 
 def test_a_stop_reaches_the_tasks_that_run():

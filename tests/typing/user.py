@@ -52,10 +52,10 @@ def explored() -> None:
         vi.Rig(rig, shaking), {"gap": ("3 mm", "7 mm")}, 9, where="threads"
     )
     assert_type(diagram, xr.Dataset)
-    found = vi.basins(case, (-0.02, 0.02), ("-1 m/s", "1 m/s"), frequency=2.6, nodes=(20, 30))
+    basins = vi.basins(case, (-0.02, 0.02), ("-1 m/s", "1 m/s"), frequency=2.6, nodes=(20, 30))
     curves = vi.manifolds(vi.Rig(rig, shaking), longest=1.0)
-    save_figure(basin_portrait(found, manifolds=curves), "basins.png")
-    assert_type(vi.resonance_diagram(case, {"frequency": (1.0, 3.0)}, basins=[found]), xr.Dataset)
+    save_figure(basin_portrait(basins, manifolds=curves), "basins.png")
+    assert_type(vi.resonance_diagram(case, {"frequency": (1.0, 3.0)}, basins=[basins]), xr.Dataset)
     assert_type(
         vi.resonance_diagram(vi.Rig(rig, 0.5), {"frequency": (1.0, 3.0)}, random=2), xr.Dataset
     )

@@ -47,9 +47,9 @@ def test_demands_of_random_frames_and_their_sensitivity() -> None:
         )
     )
     np.testing.assert_allclose(at["peak_drift"], again["peak_drift"], rtol=1e-12)
-    found = vi.sensitivity(frame(), paths, response, "peak_drift", 8)
-    assert found["total_order"].sizes["uncertain_parameter"] == 2
-    assert found["total_order"].sizes["link"] == 2
+    indices = vi.sensitivity(frame(), paths, response, "peak_drift", 8)
+    assert indices["total_order"].sizes["uncertain_parameter"] == 2
+    assert indices["total_order"].sizes["link"] == 2
     with pytest.raises(vi.InputError, match="'damping_ratio' is not a parameter of this rig"):
         vi.ensemble(frame(), {"damping_ratio": "normal:5%"}, response, 8)
     with pytest.raises(vi.InputError, match="amplitude requires sinusoidal shaking"):
@@ -60,18 +60,18 @@ def test_one_mass_or_one_stop_of_a_response() -> None:
     rig = vi.Rig(frame(vi.Bumper(4e4, 200.0, 0.012)), vi.Harmonic("1 m/s2", 0.9))
     response = functools.partial(vi.sweeps, frequencies=[0.8, 0.9], directions="forward")
     paths = {"masses.roof": "normal:5%", "gap": "normal:5%"}
-    given = (rig, paths, response)
-    whole = vi.sensitivity(*given, "peak_displacement", 8)["total_order"]
-    roof = vi.sensitivity(*given, "peak_displacement.roof", 8)
+    arguments = (rig, paths, response)
+    whole = vi.sensitivity(*arguments, "peak_displacement", 8)["total_order"]
+    roof = vi.sensitivity(*arguments, "peak_displacement.roof", 8)
     np.testing.assert_array_equal(roof["total_order"], whole.sel(mass="roof"))
-    assert vi.sensitivity(*given, "peak_force.right", 8)["mean"].attrs["units"] == "N"
+    assert vi.sensitivity(*arguments, "peak_force.right", 8)["mean"].attrs["units"] == "N"
     assert "mass" not in roof.dims
     with pytest.raises(vi.InputError, match=r"quantity: 'peak_displacement\.attic'"):
-        vi.sensitivity(*given, "peak_displacement.attic", 8)
+        vi.sensitivity(*arguments, "peak_displacement.attic", 8)
     drawn = figures.sensitivity_bars(roof.isel(direction=0, frequency=0))
     labels = [text.get_text() for text in drawn.get_xticklabels()]
     assert any("roof" in label for label in labels), labels
-    bands = figures.resonance_bands(vi.ensemble(*given, 8), quantities=["peak_displacement"])
+    bands = figures.resonance_bands(vi.ensemble(*arguments, 8), quantities=["peak_displacement"])
     assert [ax.get_ylabel().replace("\n", " ") for ax in bands] == [
         f"{mass}: largest displacement (mm)" for mass in ("base", "roof")
     ]

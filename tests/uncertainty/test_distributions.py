@@ -29,14 +29,14 @@ SHARES = np.array([0.01, 0.3, 0.5, 0.99])
     ],
 )
 def test_in_words(text, known):
-    found = distribution(text, GAP, lambda: 8e-3, "x")
-    np.testing.assert_allclose(found.ppf(SHARES), known.ppf(SHARES), rtol=1e-12)
+    law = distribution(text, GAP, lambda: 8e-3, "x")
+    np.testing.assert_allclose(law.ppf(SHARES), known.ppf(SHARES), rtol=1e-12)
 
 
 def test_one_of_scipy_stays():
-    given = stats.beta(2.0, b=3.0, scale=1e-2)
-    assert distribution(given, GAP, lambda: 8e-3, "x") is given
-    assert text_of(given) == "beta(2, b=3, scale=0.01)"
+    law = stats.beta(2.0, b=3.0, scale=1e-2)
+    assert distribution(law, GAP, lambda: 8e-3, "x") is law
+    assert text_of(law) == "beta(2, b=3, scale=0.01)"
     assert text_of("normal:5%") == "normal:5%"
 
 

@@ -51,9 +51,9 @@ def test_free_flight_on_an_uncertain_spring(method):
 
 def test_the_same_seed_gives_the_same_rigs():
     response = partial(vi.sweeps, frequencies=[1.0, 2.0])
-    given = {"gap": "normal:5%", "stops.stiffness": "lognormal:0.2"}
+    distributions = {"gap": "normal:5%", "stops.stiffness": "lognormal:0.2"}
     one, two, other = (
-        vi.ensemble(CASE, given, response, 16, seed=seed, block=block)
+        vi.ensemble(CASE, distributions, response, 16, seed=seed, block=block)
         for seed, block in ((1, None), (1, 5), (2, 16))
     )
     xr.testing.assert_identical(one, two)
@@ -62,7 +62,7 @@ def test_the_same_seed_gives_the_same_rigs():
     assert one["gap"].attrs["units"] == "m"
     assert one.attrs["created_by"] == CREATED_BY
     about = json.loads(one.attrs["parameters"])
-    assert about["distributions"] == given
+    assert about["distributions"] == distributions
     assert about["draws"] == 16
     # Each is the sweep of its own rig.
     k = 11
@@ -130,9 +130,14 @@ def test_parameters_that_are_made_of_others_are_set_last():
 def test_progress():
     seen = []
     response = partial(vi.sweeps, frequencies=[2.0])
-    given = {"isolator.stiffness": "normal:1%"}
+    distributions = {"isolator.stiffness": "normal:1%"}
     vi.ensemble(
-        vi.Rig(FREE, SHAKING), given, response, 8, block=3, progress=lambda *p: seen.append(p)
+        vi.Rig(FREE, SHAKING),
+        distributions,
+        response,
+        8,
+        block=3,
+        progress=lambda *p: seen.append(p),
     )
     assert seen == [(3, 8), (6, 8), (8, 8)]
 
@@ -166,7 +171,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "message"),
     [
         ({"distributions": {}}, "distributions: "),
         ({"distributions": {"colour": "normal:5%"}}, "distributions: 'colour'"),
@@ -198,10 +203,10 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"rig": vi.Rig(FREE, [0.1, 0.2])}, "shaking: a list"),
     ],
 )
-def test_refused(wrong, told):
-    given = {"rig": CASE, "distributions": {"gap": "normal:5%"}, "response": SWEEPS, "draws": 4}
-    with pytest.raises(vi.InputError, match=told):
-        vi.ensemble(**{**given, **wrong})
+def test_refused(wrong, message):
+    arguments = {"rig": CASE, "distributions": {"gap": "normal:5%"}, "response": SWEEPS, "draws": 4}
+    with pytest.raises(vi.InputError, match=message):
+        vi.ensemble(**{**arguments, **wrong})
 
 
 def test_fractiles_over_the_rigs():
@@ -209,11 +214,11 @@ def test_fractiles_over_the_rigs():
     spring = stats.norm(25e3, 1e3)
     response = partial(vi.sweeps, frequencies=[2.0, 2.2], directions=["forward"])
     data = vi.ensemble(vi.Rig(FREE, SHAKING), {"isolator.stiffness": spring}, response, 512)
-    found = vi.fractiles(data, "displacement_max", (0.16, 0.5, 0.84))
-    assert found["displacement_max"].dims == ("fractile", "direction", "frequency")
+    fractiles = vi.fractiles(data, "displacement_max", (0.16, 0.5, 0.84))
+    assert fractiles["displacement_max"].dims == ("fractile", "direction", "frequency")
     for k, frequency in enumerate((2.0, 2.2)):
         known = swing(spring.ppf([0.16, 0.5, 0.84]), frequency)
-        np.testing.assert_allclose(found["displacement_max"][:, 0, k], known, rtol=1e-3)
+        np.testing.assert_allclose(fractiles["displacement_max"][:, 0, k], known, rtol=1e-3)
     # The median of what is left.
     holes = data.assign(
         displacement_max=data["displacement_max"].where(data["isolator.stiffness"] > 25e3)
@@ -222,15 +227,15 @@ def test_fractiles_over_the_rigs():
         RuntimeWarning,
         match=r"(256 of 512|512 of 1024) values of .* are missing \(NaN\) and were left out",
     ):
-        found = vi.fractiles(holes, "displacement_max", [0.5])
+        fractiles = vi.fractiles(holes, "displacement_max", [0.5])
     np.testing.assert_allclose(
-        found["displacement_max"][0, 0, 0], swing(spring.ppf(0.75)), rtol=1e-3
+        fractiles["displacement_max"][0, 0, 0], swing(spring.ppf(0.75)), rtol=1e-3
     )
     # What went beyond all limits is above whatever fractile.
     lost = data.assign(status=data["status"].where(data["isolator.stiffness"] > 25e3, 6))
-    found = vi.fractiles(lost, "displacement_max", [0.4, 0.6])["displacement_max"]
-    assert np.isfinite(found[0]).all()
-    assert np.isinf(found[1]).all()
+    fractiles = vi.fractiles(lost, "displacement_max", [0.4, 0.6])["displacement_max"]
+    assert np.isfinite(fractiles[0]).all()
+    assert np.isinf(fractiles[1]).all()
     with pytest.raises(
         vi.InputError, match=r"quantity: 'colour'; pass one of displacement_excursion, "
     ):

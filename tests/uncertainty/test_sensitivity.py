@@ -27,7 +27,7 @@ def ishigami(rigs: list[vi.Rig]) -> xr.Dataset:
 def test_ishigami():
     """Closed form of Ishigami and Homma (1990): a = 7, b = 0.1."""
     seen = []
-    found = vi.sensitivity(
+    indices = vi.sensitivity(
         vi.Rig(RIG, 1.0),
         {"force": TURN, "gap": TURN, "isolator.damping": stats.uniform(0.0, 2.0 * np.pi)},
         ishigami,
@@ -42,17 +42,17 @@ def test_ishigami():
     both = 8.0 * b**2 * pi**8 / 225.0
     whole = parts.sum() + both
     first, total = parts / whole, (parts + np.array([both, 0.0, both])) / whole
-    assert list(found["uncertain_parameter"].values) == ["force", "gap", "isolator.damping"]
+    assert list(indices["uncertain_parameter"].values) == ["force", "gap", "isolator.damping"]
     for name, known in (("first_order", first), ("total_order", total)):
-        assert found[name].dims == ("multiple", "uncertain_parameter")
+        assert indices[name].dims == ("multiple", "uncertain_parameter")
         for k in range(2):
-            np.testing.assert_allclose(found[name][k], known, atol=0.06)
-        interval = found[f"{name}_interval"]
-        assert (interval[..., 0] <= found[name] + 1e-12).all()
-        assert (found[name] <= interval[..., 1] + 1e-12).all()
+            np.testing.assert_allclose(indices[name][k], known, atol=0.06)
+        interval = indices[f"{name}_interval"]
+        assert (interval[..., 0] <= indices[name] + 1e-12).all()
+        assert (indices[name] <= interval[..., 1] + 1e-12).all()
         assert ((interval[..., 1] - interval[..., 0]) < 0.3).all()
-    np.testing.assert_allclose(found["variance"], whole * np.array([1.0, 4.0]), rtol=0.03)
-    np.testing.assert_allclose(found["mean"], 3.5 * np.array([1.0, 2.0]), rtol=0.03)
+    np.testing.assert_allclose(indices["variance"], whole * np.array([1.0, 4.0]), rtol=0.03)
+    np.testing.assert_allclose(indices["mean"], 3.5 * np.array([1.0, 2.0]), rtol=0.03)
     count = sample(4096, 1024)
     assert seen[-1] == (5 * count, 5 * count)
 
@@ -70,16 +70,16 @@ def test_near_the_static_limit():
         "amplitude": "lognormal:0.2",
         "isolator.damping": "normal:5%",
     }
-    found = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
-    np.testing.assert_allclose(found["first_order"], [0.2, 0.8, 0.0], atol=0.02)
-    np.testing.assert_allclose(found["total_order"], [0.2, 0.8, 0.0], atol=0.02)
-    np.testing.assert_allclose(found["variance"], 0.05, rtol=0.05)
+    indices = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
+    np.testing.assert_allclose(indices["first_order"], [0.2, 0.8, 0.0], atol=0.02)
+    np.testing.assert_allclose(indices["total_order"], [0.2, 0.8, 0.0], atol=0.02)
+    np.testing.assert_allclose(indices["variance"], 0.05, rtol=0.05)
     again = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
-    xr.testing.assert_identical(found, again)
+    xr.testing.assert_identical(indices, again)
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "message"),
     [
         ({"quantity": "colour"}, "quantity: 'colour' is unknown; use displacement_excursion, "),
         ({"draws": 100}, "draws: 100"),
@@ -87,13 +87,13 @@ def test_near_the_static_limit():
         ({"seed": 0.5}, "seed"),
     ],
 )
-def test_refused(wrong, told):
-    given = {
+def test_refused(wrong, message):
+    arguments = {
         "rig": vi.Rig(RIG, 1.0),
         "distributions": {"gap": "normal:5%"},
         "response": partial(vi.sweeps, frequencies=[0.3]),
         "quantity": "eta_d",
         "draws": 2,
     }
-    with pytest.raises(vi.InputError, match=told):
-        vi.sensitivity(**{**given, **wrong})
+    with pytest.raises(vi.InputError, match=message):
+        vi.sensitivity(**{**arguments, **wrong})

@@ -37,7 +37,7 @@ _COUNTED = [at.STEPS, at.SPLITS, at.ORDERED, at.UNDECIDED]
     "disturbed",
 )
 def follow(
-    given: Any,
+    memory: Any,
     rig: Vector,
     amplitude: float,
     omega: float,
@@ -51,7 +51,7 @@ def follow(
     tau: float,
 ) -> int:
     """Follow a motion over sections; see `follow_sections`."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, omega)
     here, there, ended, notes = state_buffer(), state_buffer(), stretch_buffer(), note_buffer()
     passed = notes_buffer()

@@ -108,7 +108,7 @@ def test_differences(link: str, stop: str) -> None:
 
 
 @rigless_entry("f8(f8[::1], f8[::1], f8[::1], i8)")
-def ask(given: Any, memory: Vector, state: Vector, values: Vector, part: int) -> float:
+def ask(placeholder: Any, memory: Vector, state: Vector, values: Vector, part: int) -> float:
     """Place a state, at a point if there is one, or disturb a part of it."""
     plan, here = pointer(memory), pointer(state)
     table.complete(plan)

@@ -82,12 +82,12 @@ def test_one_mass_is_swept_alike(rigid: bool) -> None:
     stops = 1 if rigid else 2
     expected, ends = swept(known, FREQUENCIES, 8, RESULTS)
     width = FIRST + 2 + stops + 1
-    found, states = swept(masses, FREQUENCIES, width, MEASURED + measures.count(1, stops))
-    assert (found[:, OUTCOME] == expected[:, OUTCOME]).all()
-    assert (found[:, PERIOD] == expected[:, PERIOD]).all()
+    rows, states = swept(masses, FREQUENCIES, width, MEASURED + measures.count(1, stops))
+    assert (rows[:, OUTCOME] == expected[:, OUTCOME]).all()
+    assert (rows[:, PERIOD] == expected[:, PERIOD]).all()
     settled = expected[:, PERIOD] > 0
     assert settled.sum() >= 4
-    u, a, of_base, of_stop = found[:, 3:5], found[:, 5:7], found[:, 7:9], found[:, 11:]
+    u, a, of_base, of_stop = rows[:, 3:5], rows[:, 5:7], rows[:, 7:9], rows[:, 11:]
     for mine, theirs in (
         (u, expected[:, 3:5]),
         (a, expected[:, 5:7]),
@@ -108,7 +108,7 @@ def test_one_mass_has_the_same_orbit_and_multipliers(rigid: bool) -> None:
     frequency, amplitude, phase = 1.2, 3.0, 0.3
     stops = 1 if rigid else 2
     _, ends = swept(known, [frequency], 8, RESULTS)
-    found = []
+    orbits = []
     for vector, parts in ((known, 5), (masses, 2 + stops)):
         numbers = section_map.SYSTEM - 2 if parts == 5 else len(vector)
         base = np.append(vector[:numbers], [amplitude, 0.0])
@@ -149,8 +149,8 @@ def test_one_mass_has_the_same_orbit_and_multipliers(rigid: bool) -> None:
         assert done == DONE
         np.testing.assert_allclose(again, columns, rtol=0, atol=1e-9 * abs(columns).max())
         contacts = facts[section_map.CONTACTS :][:stops]
-        found.append((point[:2], columns[:2, :2], slope[:2], contacts, damping[0]))
-    (u, matrix, rate, hits, lost), (mine, mine_matrix, mine_rate, mine_hits, mine_lost) = found
+        orbits.append((point[:2], columns[:2, :2], slope[:2], contacts, damping[0]))
+    (u, matrix, rate, hits, lost), (mine, mine_matrix, mine_rate, mine_hits, mine_lost) = orbits
     np.testing.assert_allclose(mine, u, rtol=0, atol=1e-13 * abs(u).max())
     np.testing.assert_allclose(mine_matrix, matrix, rtol=0, atol=1e-12 * abs(matrix).max())
     np.testing.assert_allclose(mine_rate, rate, rtol=0, atol=1e-6 * abs(rate).max())
@@ -170,9 +170,9 @@ CYCLE, EXTREMES, TANGENT, MIRRORED = range(4)
 
 
 @entry("i8(f8[::1], f8, f8, f8, i8, f8[::1], f8[:, ::1])", "disturbed")
-def watched(given, rig, amplitude, frequency, phase, which, state, q):
+def watched(memory, rig, amplitude, frequency, phase, which, state, q):
     """A cycle unobserved and observed; or a state mirrored."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     here, notes = state_buffer(), measures_buffer()
     s, c = math.sin(phase), math.cos(phase)
@@ -243,7 +243,7 @@ def test_numbers_that_follow_from_others_are_put_right() -> None:
     between = first._replace(stops=middle, stiffness=2.0 * first.stiffness)
     vectors = [np.append(vector_of(one), [3.0, 1.7]) for one in (first, last, between)]
     direction = np.where(vectors[1] != vectors[0], vectors[1] - vectors[0], 0.0)
-    found = []
+    maps = []
     for base, line, value in (
         (vectors[0], direction, 0.5),
         (vectors[2], np.zeros(len(direction)), 0.5),
@@ -268,9 +268,9 @@ def test_numbers_that_follow_from_others_are_put_right() -> None:
         )
         assert done == DONE
         assert facts[section_map.CONTACTS :].sum() >= 2
-        found.append((image[:6], columns))
-    np.testing.assert_allclose(found[0][0], found[1][0], rtol=1e-12, atol=1e-15)
-    np.testing.assert_allclose(found[0][1], found[1][1], rtol=1e-9, atol=1e-12)
+        maps.append((image[:6], columns))
+    np.testing.assert_allclose(maps[0][0], maps[1][0], rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(maps[0][1], maps[1][1], rtol=1e-9, atol=1e-12)
 
 
 def test_extremes_bound_what_is_sampled_and_are_met() -> None:

@@ -198,8 +198,8 @@ def test_a_pair_moves_as_one_mass_of_their_reduced_mass(e: float | None, tables:
     assert counts[0] == counts[1] >= 6
     if e is not None:
         assert REST_ENDS in logs[1, :, 3]
-    found = [two[2] - two[3], two[4] - two[5]]
-    assert found == pytest.approx(single[2:4], abs=1e-11)
+    relative = [two[2] - two[3], two[4] - two[5]]
+    assert relative == pytest.approx(single[2:4], abs=1e-11)
 
 
 def test_a_ball_that_bounces_until_it_rests() -> None:

@@ -16,7 +16,7 @@ from vibroimpact.engine.rigless_entry import rigless_entry
 
 
 @rigless_entry("f8(f8[::1], f8, f8, f8[::1])")
-def find(given: Any, b: Vector, d: float, x: float, plan: Vector) -> float:
+def find(placeholder: Any, b: Vector, d: float, x: float, plan: Vector) -> float:
     return first_fall(pointer(b), d, x, 1.0, 0, 1e-300, pointer(plan))
 
 
@@ -64,14 +64,14 @@ def test_near_touches() -> None:
         if long[0] <= 0:
             continue
         crossed = np.flatnonzero((long[1:] <= 0) & (long[:-1] > 0))
-        found = find(b.copy(), size, rate, plan)
+        root = find(b.copy(), size, rate, plan)
         least = abs(float(long.min()))
         kinds[size > 0, len(crossed) > 0] = kinds.get((size > 0, len(crossed) > 0), 0) + 1
-        if found == NONE:
+        if root == NONE:
             assert not len(crossed) or least < 3e-15
         elif len(crossed):
             slack = 1e-12 + 3e-15 / np.sqrt(least)
-            assert grid[crossed[0]] - slack <= found <= grid[crossed[0] + 1] + slack
+            assert grid[crossed[0]] - slack <= root <= grid[crossed[0] + 1] + slack
         else:
             assert least < 3e-15 * max(1.0, size)
     assert min(kinds.values()) > 30

@@ -24,7 +24,7 @@ PLACE, DISTURB, DESCRIBE = range(3)
 
 @rigless_entry("f8(i8, f8[::1], f8, f8, f8[::1], f8[:, ::1], f8[::1])")
 def ask(
-    given: Any,
+    placeholder: Any,
     what: int,
     memory: Vector,
     amplitude: float,

@@ -29,7 +29,7 @@ def test_fourier_integrals_of_one_mass_are_the_oscillators(tables: bool) -> None
         assembly_vector(assembly, equilibrium(assembly)),
     )
     omega = 2.0 * math.pi * SINE.frequency
-    lines, found = omega * np.array([0.0, 1.0, 5.0, 40.0]), []
+    lines, integrals = omega * np.array([0.0, 1.0, 5.0, 40.0]), []
     for rig, state in zip(rigs, states, strict=True):
         notes, out = np.zeros(fourier.NOTES), np.zeros((fourier.QUANTITIES, len(lines)))
         notes[fourier.COUNT], notes[fourier.INTERVAL] = len(lines), SINE.period
@@ -38,6 +38,6 @@ def test_fourier_integrals_of_one_mass_are_the_oscillators(tables: bool) -> None
             rig, SINE.amplitude, omega, SINE.phase, row, 0, state, 0, 2.0, 1000, notes, lines, out
         )
         assert reached == (2, 0)
-        found.append(out)
-    for one, several in zip(*found, strict=True):
+        integrals.append(out)
+    for one, several in zip(*integrals, strict=True):
         np.testing.assert_allclose(several, one, rtol=0, atol=1e-12 * abs(one).max())

@@ -47,8 +47,8 @@ def test_differences(name: str, tables: bool) -> None:
                 other = start.copy()
                 other[FIRST + i] += sign * step
                 sides.append(carried(system, other, lines, tables=tables)[0])
-            found = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
-            best = min(best, abs(found - q[i]).max() / abs(q[i]).max())
+            quotient = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
+            best = min(best, abs(quotient - q[i]).max() / abs(q[i]).max())
         assert best <= 2e-6
     # Nothing that is observed changes the motion.
     assert (carried(system, start, lines, None, tables)[0] == end).all()
@@ -76,9 +76,9 @@ def test_a_deformation_that_outlives_the_section() -> None:
             other = start.copy()
             other[FIRST + 2 * n + f] += sign * step
             sides.append(carried(system, other, lines)[0])
-        found = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
+        quotient = (sides[0] - sides[1])[FIRST : FIRST + width] / (2 * step)
         assert abs(q[i]).max() > 1e-3
-        assert abs(found - q[i]).max() <= 1e-6 * abs(q[i]).max()
+        assert abs(quotient - q[i]).max() <= 1e-6 * abs(q[i]).max()
 
 
 APART = 1e-9
@@ -120,5 +120,5 @@ def test_contacts_almost_at_once(restitution: float | None, later: int) -> None:
     for i in range(2 * n):
         beside = exact_motion(system, state, lasts, i)
         pairs = zip(beside.y[: 2 * n], true.y[: 2 * n], strict=True)
-        found = np.array([float((a - b) * mp.mpf("1e25")) for a, b in pairs])
-        assert abs(found - q[i, : 2 * n]).max() <= 1e-11 * abs(found).max()
+        quotient = np.array([float((a - b) * mp.mpf("1e25")) for a, b in pairs])
+        assert abs(quotient - q[i, : 2 * n]).max() <= 1e-11 * abs(quotient).max()

@@ -38,10 +38,10 @@ def test_their_sum_is_that_of_the_model(of: str) -> None:
     plan = begun(several, drive, 1.0, OMEGA)
     model = vi.Periodic(0.5, SHAPE.amplitudes, SHAPE.phases, of=of)
     angles = np.linspace(0.0, 7.0, 40)
-    found = [several.value(plan, math.sin(a), math.cos(a)) for a in angles]
-    np.testing.assert_allclose(found, model.at(angles), atol=1e-12)
+    sums = [several.value(plan, math.sin(a), math.cos(a)) for a in angles]
+    np.testing.assert_allclose(sums, model.at(angles), atol=1e-12)
     # Bounds on the sum and on its slope.
-    assert np.abs(found).max() <= plan[MOST]
+    assert np.abs(sums).max() <= plan[MOST]
     slopes = np.diff(model.at(OMEGA * np.linspace(0.0, 2.0, 4001))) / 5e-4
     assert np.abs(slopes).max() <= plan[STEEPEST]
 

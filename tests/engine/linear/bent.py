@@ -31,14 +31,14 @@ def bent(rig: np.ndarray, omega: float, row: Row, low: float, high: float) -> tu
     plan = planned(flow_of(rig), rig)
     build(plan, 1.0, omega)
     second = 8.0 * band(plan, TABLES, row.x, row.v)
-    found = []
+    curvatures = []
     for y in np.linspace(0.0, high - low, 41):
         i = min(int(y), NODES - 1)
         there = travel(plan, TABLES, y - i, node(plan, TABLES, i, row))
-        found.append(2.0 * short_series(plan, TABLES, there)[2])
+        curvatures.append(2.0 * short_series(plan, TABLES, there)[2])
     rise, fall = bends(plan, TABLES, node(plan, TABLES, int(-low), row), second, low, high)
-    beyond = max(max(found) - rise, -min(found) - fall)
-    return beyond / np.abs(found).max(), (rise + fall) / np.abs(found).max()
+    beyond = max(max(curvatures) - rise, -min(curvatures) - fall)
+    return beyond / np.abs(curvatures).max(), (rise + fall) / np.abs(curvatures).max()
 
 
 def main() -> None:

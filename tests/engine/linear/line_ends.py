@@ -27,7 +27,7 @@ def main() -> None:
     build(plan, 1.0, SLOPE)
     h = plan[TABLES + H]
     band = (1.0 + 17.0 * h * ROOT) * h * h / 8.0
-    dips = found = 0
+    dips = detections = 0
     for share in (0.25, 0.3, 0.35, 0.4, 0.45):
         pull = 1.0 - SLOPE * share * INTERVAL
         for depth in (1e-3, 5e-3, 1e-2, 3e-2, 0.1):
@@ -36,8 +36,8 @@ def main() -> None:
                 v = (-depth * band - x - pull * t * t / 2 - SLOPE * t**3 / 6) / t
                 row = Row(x, v, -pull, -SLOPE)
                 way, *_ = flight(plan, FLIGHT, row, LEVEL, WITHIN, False, t, 0.0)
-                dips, found = dips + 1, found + (way == BELOW)
-    print(dips, found)
+                dips, detections = dips + 1, detections + (way == BELOW)
+    print(dips, detections)
 
 
 if __name__ == "__main__":

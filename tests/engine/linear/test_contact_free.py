@@ -22,8 +22,8 @@ def rig(damping_ratio: float, right: float, left: float, load: float = 0.0) -> v
     return vi.Oscillator(MASS, isolator, stop, other, load)
 
 
-def held(one: vi.Oscillator, frequency: float, start: vi.State, phase: float = 0.0, **given):
-    data = vi.sweep(vi.Rig(one, 1.0), [frequency], "forward", start=start, phase=phase, **given)
+def held(one: vi.Oscillator, frequency: float, start: vi.State, phase: float = 0.0, **options):
+    data = vi.sweep(vi.Rig(one, 1.0), [frequency], "forward", start=start, phase=phase, **options)
     return data.isel(direction=0, frequency=0)
 
 

@@ -74,19 +74,19 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
     return n
 
 
-def pieces_of(mode: int, damping: float, given: np.random.Generator, first: Enclosed) -> np.ndarray:
+def pieces_of(mode: int, damping: float, rng: np.random.Generator, first: Enclosed) -> np.ndarray:
     """Of a motion that begins anywhere: shape (piece, quantity, column)."""
     stop = vi.Bumper(200.0, damping, -0.5)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), *(stop if mode == m else None for m in (1, 2)))
     plan, out = np.zeros(PLAN), np.zeros((5000, QUANTITIES, 7))
     plan[:SIZE] = engine_rig(vi.Rig(rig, vi.Harmonic(1.0, 1.0)))
-    frequency, phase = FREQUENCY * given.uniform(0.2, 5.0), given.uniform(0.0, math.tau)
-    build(plan, given.uniform(0.1, 3.0), math.tau * frequency)
-    u, v = given.normal(size=2)
-    pressed = abs(given.normal()) if mode else 0.0
+    frequency, phase = FREQUENCY * rng.uniform(0.2, 5.0), rng.uniform(0.0, math.tau)
+    build(plan, rng.uniform(0.1, 3.0), math.tau * frequency)
+    u, v = rng.normal(size=2)
+    pressed = abs(rng.normal()) if mode else 0.0
     clock = math.sin(phase), math.cos(phase)
     motion = Motion(mode, 0, u, v, (pressed, pressed), 0.0, 0.0, clock)
-    return out[: looked_at(plan, motion, given.uniform(0.01, 6.0), first, out)]
+    return out[: looked_at(plan, motion, rng.uniform(0.01, 6.0), first, out)]
 
 
 CASES = [(mode, damping) for mode in (FLIGHT, RIGHT, LEFT) for damping in (0.0, 0.5, 200.0)]
@@ -94,10 +94,10 @@ CASES = [(mode, damping) for mode in (FLIGHT, RIGHT, LEFT) for damping in (0.0, 
 
 @pytest.mark.parametrize(("mode", "damping"), CASES)
 def test_a_piece_lies_within_its_bounds(mode: int, damping: float) -> None:
-    given = np.random.default_rng(3 * mode + int(damping))
+    rng = np.random.default_rng(3 * mode + int(damping))
     loose = []
     for _ in range(sample(60, 6)):
-        pieces = pieces_of(mode, damping, given, NOWHERE)
+        pieces = pieces_of(mode, damping, rng, NOWHERE)
         least, most, low, high, *_ = np.moveaxis(pieces, 2, 0)
         size = 1e-12 * np.maximum(abs(least), abs(most)).max(axis=0)
         assert (low <= least + size).all()
@@ -110,9 +110,9 @@ def test_a_piece_lies_within_its_bounds(mode: int, damping: float) -> None:
 
 @pytest.mark.parametrize(("mode", "damping"), CASES)
 def test_what_was_seen_was_met(mode: int, damping: float) -> None:
-    given = np.random.default_rng(5 * mode + int(damping))
+    rng = np.random.default_rng(5 * mode + int(damping))
     for _ in range(sample(60, 6)):
-        pieces = pieces_of(mode, damping, given, NOWHERE)
+        pieces = pieces_of(mode, damping, rng, NOWHERE)
         for part in range(2 if mode == FLIGHT else QUANTITIES):
             seen_least, seen_most = pieces[-1, part, 4:6]
             least, most = pieces[:, part, 0].min(), pieces[:, part, 1].max()
@@ -123,12 +123,12 @@ def test_what_was_seen_was_met(mode: int, damping: float) -> None:
 
 @pytest.mark.parametrize(("mode", "damping"), CASES)
 def test_a_window_that_is_passed_over_lies_within_what_was_seen(mode: int, damping: float) -> None:
-    given = np.random.default_rng(7 * mode + int(damping))
+    rng = np.random.default_rng(7 * mode + int(damping))
     passed = 0
     for _ in range(sample(200, 16)):
-        reach = np.exp(given.uniform(-1.0, 6.0, 3))
+        reach = np.exp(rng.uniform(-1.0, 6.0, 3))
         first = Enclosed(-reach[0], reach[0], -reach[1], reach[1], reach[2])
-        pieces = pieces_of(mode, damping, given, first)
+        pieces = pieces_of(mode, damping, rng, first)
         for part in range(2 if mode == FLIGHT else QUANTITIES):
             least, most, low, high, _, _, within = pieces[:, part].T
             over = within == 1.0

@@ -57,14 +57,14 @@ def made_orthonormal(q, weights, shares, count):
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_rows_become_orthonormal_and_span_what_they_did(count):
-    given = np.random.default_rng(count).normal(size=(DISTURBANCE, DISTURBANCE))
+    matrix = np.random.default_rng(count).normal(size=(DISTURBANCE, DISTURBANCE))
     weights = np.array([2.0, 1.0, 0.5, 3.0, 0.0])
-    q, shares = given.copy(), np.zeros((DISTURBANCE, DISTURBANCE))
+    q, shares = matrix.copy(), np.zeros((DISTURBANCE, DISTURBANCE))
     assert made_orthonormal(q, weights, shares, count) == 0
     rows = q[:count]
     np.testing.assert_allclose((rows * weights) @ rows.T, np.eye(count), atol=1e-14)
-    np.testing.assert_allclose(shares[:count, :count] @ rows, given[:count], rtol=1e-12)
-    sizes = np.abs(np.diag(np.linalg.qr((given[:count] * np.sqrt(weights)).T)[1]))
+    np.testing.assert_allclose(shares[:count, :count] @ rows, matrix[:count], rtol=1e-12)
+    sizes = np.abs(np.diag(np.linalg.qr((matrix[:count] * np.sqrt(weights)).T)[1]))
     np.testing.assert_allclose(np.diag(shares)[:count], sizes, rtol=1e-12)
 
 
@@ -189,9 +189,9 @@ def test_what_grows_on_a_hilltop_does_not_hide_what_shrinks():
 
 
 @entry("void(f8[::1], f8, i8, f8[:, ::1], f8[::1])", "disturbed")
-def grown_over(given, rig, length, event, q, logarithms):
+def grown_over(memory, rig, length, event, q, logarithms):
     """The growth over a stretch of flight, as if this event had ended it."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, 0.0, 1.0)
     before, after, ended, weights = state_buffer(), state_buffer(), stretch_buffer(), parts_buffer()
     load(plan, pointer(np.zeros(ONE_MASS.width)), before, 0.0, 1.0)

@@ -71,9 +71,9 @@ LATER = 1.3
     "recorded",
     "measured",
 )
-def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, since, lines, out):
+def followed(memory, rig, amplitude, omega, start, notes, rows, samples, events, since, lines, out):
     """The same cycle, measured, written down and integrated."""
-    plan = planned(given, rig)
+    plan = planned(memory, rig)
     flow.build(plan, amplitude, omega)
     state, kept = state_buffer(), note_buffer()
     copy(pointer(start), state, width(plan))
@@ -163,8 +163,8 @@ def of_phase(name, row, seen, time, base, events, i):
         mean = np.trapezoid(values, time) / (time[-1] - time[0])
         return mean * row[layout.LENGTH]
 
-    def near(found, values):
-        assert found == pytest.approx(total(values), abs=coarse * total(np.abs(values)) + 1e-9)
+    def near(integral, values):
+        assert integral == pytest.approx(total(values), abs=coarse * total(np.abs(values)) + 1e-9)
 
     for values, least in (
         (u, ONE_MASS.mass(layout.U_LEAST)),

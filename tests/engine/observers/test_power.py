@@ -50,10 +50,10 @@ largest_power = observed(see_power)
 
 
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, f8[::1])", "measured")
-def find_power(given, rig, amplitude, frequency, phase, state, cycles, notes):
+def find_power(memory, rig, amplitude, frequency, phase, state, cycles, notes):
     here, count = state_buffer(), 0
     plan, s, c, period, _ = open_entry(
-        given, rig, amplitude, frequency, phase, pointer(state), here
+        memory, rig, amplitude, frequency, phase, pointer(state), here
     )
     for _ in range(cycles):
         count += largest_power(plan, here, s, c, period, 1000, pointer(notes))
@@ -115,6 +115,6 @@ def test_largest_power_of_a_stop_is_that_of_dense_samples(name: str) -> None:
             power = (force * closing * (motion["clearance"].sel(stop=stop) <= 0.0)).values
             assert power.max() > 0.0 > power.min()
         low, high = power.min(), power.max()
-        found = notes[2 * i : 2 * i + 2]
-        assert found[0] - 1e-12 <= low <= found[0] + 1e-2 * (high - low), stop
-        assert found[1] - 1e-2 * (high - low) <= high <= found[1] + 1e-12, stop
+        extremes = notes[2 * i : 2 * i + 2]
+        assert extremes[0] - 1e-12 <= low <= extremes[0] + 1e-2 * (high - low), stop
+        assert extremes[1] - 1e-2 * (high - low) <= high <= extremes[1] + 1e-12, stop

@@ -27,8 +27,8 @@ def test_both_extremes_of_a_cubic_lie_inside() -> None:
 
 
 def test_what_was_wider_before_stays() -> None:
-    found = series_extremes(series(0.0, 1.0), -0.5, 0.5, -3.0, 0.25)
-    assert found == (-3.0, 0.5, -0.5, 0.5)
+    extrema = series_extremes(series(0.0, 1.0), -0.5, 0.5, -3.0, 0.25)
+    assert extrema == (-3.0, 0.5, -0.5, 0.5)
 
 
 def test_a_constant_is_passed_in_one_step(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -42,8 +42,8 @@ def test_a_constant_is_passed_in_one_step(monkeypatch: pytest.MonkeyPatch) -> No
 
     jet = extremes.jet
     monkeypatch.setattr(extremes, "jet", counted)
-    found = series_extremes.py_func(series(0.3), -0.5, 0.5, math.inf, -math.inf)
-    assert found == (0.3, 0.3, -0.5, -0.5)
+    extrema = series_extremes.py_func(series(0.3), -0.5, 0.5, math.inf, -math.inf)
+    assert extrema == (0.3, 0.3, -0.5, -0.5)
     assert looked_at == [-0.5, 0.5]
 
 

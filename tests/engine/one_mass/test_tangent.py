@@ -46,11 +46,11 @@ def derivative(rig, shaken, start, cycles=1):
 
 def flow(motion: Motion, values) -> np.ndarray:
     rig = motion.oscillator
-    given = [float(v) for v in values]
+    parts = [float(v) for v in values]
     # Deformations only where there is a bumper; u_L is negative.
-    right = max(given[2], 0.0) if rig.right else None
-    left = max(-given[3], 0.0) if rig.left else None
-    start = vi.State(given[0], given[1], {"right": right, "left": left})
+    right = max(parts[2], 0.0) if rig.right else None
+    left = max(-parts[3], 0.0) if rig.left else None
+    start = vi.State(parts[0], parts[1], {"right": right, "left": left})
     end = vi.simulate(vi.Rig(rig, motion.excitation), 1.0, start, 0)["final_state"]
     return signed_parts(end.values)
 
@@ -140,9 +140,9 @@ def test_multipliers_of_free_flight():
     rows, damping = derivative(rig, vi.Harmonic(1e-3, 3.7), vi.State())
     xi, omega = rig.damping_ratio, rig.angular_frequency
     root = complex(-xi, math.sqrt(1 - xi * xi)) * omega * period
-    found = np.linalg.eigvals(rows[:2, :2])
+    multipliers = np.linalg.eigvals(rows[:2, :2])
     np.testing.assert_allclose(
-        sorted(found, key=lambda z: z.imag),
+        sorted(multipliers, key=lambda z: z.imag),
         sorted([np.exp(root), np.exp(root.conjugate())], key=lambda z: z.imag),
         atol=1e-13,
     )

@@ -54,13 +54,13 @@ def test_coefficients(name: str) -> None:
     formula, machine = FORMULAE[name], Plain(None, ())
     state = StateSeries(machine, STATE[:1])
     series = formula(machine, Shifted(state, STATE[0]), Rate(state))
-    found = []
+    coefficients = []
     for n in range(DEGREE + 1):
         state.coefficients.append(STATE[n + 1])  # the rate is one ahead of the state
-        found.append(series[n])
+        coefficients.append(series[n])
     with mpmath.workdps(60):
         exact = mpmath.taylor(lambda t: formula(Precise(), displacement(t), velocity(t)), 0, DEGREE)
-    np.testing.assert_allclose(found, [float(c) for c in exact], rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(coefficients, [float(c) for c in exact], rtol=1e-9, atol=1e-11)
 
 
 @pytest.mark.parametrize("name", FORMULAE)

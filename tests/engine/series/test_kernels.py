@@ -140,8 +140,8 @@ def test_slopes_are_derivatives_of_the_forces(shape) -> None:
                 moved[i] += way * 1e-6
                 ends.append(forces(plan, shape, *moved)[0 if pulls else 1])
             slope = unit * (ends[0] - ends[1]) / 2e-6
-            found = np.polyval(plan[place : place + at.DEGREE + 1][::-1], share)
-            assert found == pytest.approx(slope, abs=1e-6)
+            value = np.polyval(plan[place : place + at.DEGREE + 1][::-1], share)
+            assert value == pytest.approx(slope, abs=1e-6)
 
 
 def forces(plan: np.ndarray, shape: Shape, x: float, v: float, z: float) -> tuple[float, float]:

@@ -27,9 +27,9 @@ def test_each_law_is_asked_for_by_its_place() -> None:
     ask = laws.choice({"constant": laws.constant, "falling": falling, "half": half})
     numbers = [9.0, 0.0, 0.6, 0.25]
     expected = {0.0: (0.6, 1.0, 0.6), 1.0: (2.0 / 3.0, 2.0 / 3.0, 1.0), 2.0: (0.3, 1.0, 0.3)}
-    for code, found in expected.items():
+    for code, ratios in expected.items():
         numbers[1] = code
-        assert tuple(ask(np.array(numbers), 1, 2.0)) == pytest.approx(found, rel=1e-15)
+        assert tuple(ask(np.array(numbers), 1, 2.0)) == pytest.approx(ratios, rel=1e-15)
 
 
 def test_a_constant_restitution_and_its_gap_are_a_wall() -> None:

@@ -45,15 +45,15 @@ def integrated(
             events.append(event(lambda t, y: abs(y[2]) - limit, 1.0))
         elif not yields and law.hysteretic:
             events.append(event(lambda t, y: y[2], -side))
-        found = solve_ivp(
+        solution = solve_ivp(
             rates, (t, end), y, "DOP853", args=(way, side), events=[
                 event(lambda t, y, *_, one=one: one(t, y), one.direction) for one in events
             ], rtol=1e-13, atol=1e-15, max_step=0.1,
         )  # fmt: skip
-        t, y = found.t[-1], found.y[:, -1].copy()
-        if found.status != 1:
+        t, y = solution.t[-1], solution.y[:, -1].copy()
+        if solution.status != 1:
             break
-        if len(found.t_events[0]):
+        if len(solution.t_events[0]):
             y[1], way = 0.0, -way
         elif yields:
             y[2] = np.copysign(limit, y[2])

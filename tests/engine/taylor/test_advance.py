@@ -46,8 +46,8 @@ def test_linear_rigs_as_by_the_tables(motion: Motion) -> None:
     scale = np.array([1.0, 1.0, size, rate * size, size, size, 1.0, np.inf])
     # Wherever it is disturbed on its way, the end differs by hardly more.
     assume(all(np.abs((other - exact) / scale).max() < 1e-8 for other in others))
-    found = followed(rig, shaken, CYCLES, start)
-    assert np.abs((found - exact) / scale).max() < 1e-13
+    end = followed(rig, shaken, CYCLES, start)
+    assert np.abs((end - exact) / scale).max() < 1e-13
 
 
 def disturbed(rig: vi.Oscillator, shaken: vi.Harmonic, start: np.ndarray) -> Iterator[np.ndarray]:
@@ -68,8 +68,8 @@ def disturbed(rig: vi.Oscillator, shaken: vi.Harmonic, start: np.ndarray) -> Ite
 def test_each_isolator_against_dop853(isolator: str) -> None:
     rig = between(isolator, None)
     exact = integrated(*ISOLATORS[isolator].engine_numbers(), SHAKEN, 10)
-    found = followed(rig, SHAKEN, 10, started(rig))
-    np.testing.assert_allclose(found[SEEN], exact, atol=2e-12)
+    end = followed(rig, SHAKEN, 10, started(rig))
+    np.testing.assert_allclose(end[SEEN], exact, atol=2e-12)
 
 
 @pytest.mark.parametrize(("isolator", "stop"), pairs())
@@ -125,10 +125,10 @@ def stored(rig: vi.Oscillator, isolator: str, stop: str, state: np.ndarray) -> f
     # What yields is a slider behind the spring of the memory.
     total += 0.5 * law.hysteretic * z * z / law.slope
     for side, sign in ((1, 1.0), (2, -1.0)):
-        given = rig.right if side == 1 else rig.left
-        if isinstance(given, vi.Bumper):
-            total += 0.5 * given.stiffness * state[U + 1 + side] ** 2
-        elif not isinstance(given, vi.RigidStop) and int(state[MODE]) & side:
-            depth = max(sign * u - given.gap, 0.0)
-            total += stored_by_stop(given, depth)
+        stop_law = rig.right if side == 1 else rig.left
+        if isinstance(stop_law, vi.Bumper):
+            total += 0.5 * stop_law.stiffness * state[U + 1 + side] ** 2
+        elif not isinstance(stop_law, vi.RigidStop) and int(state[MODE]) & side:
+            depth = max(sign * u - stop_law.gap, 0.0)
+            total += stored_by_stop(stop_law, depth)
     return float(total)

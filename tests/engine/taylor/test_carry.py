@@ -94,11 +94,11 @@ def differentiated(exponent: float, drag: float) -> np.ndarray:
     t, y, way = 0.0, np.array([0.1, 0.9, 1.0, 0.0, 0.0, 1.0]), 1.0
     while t < SHAKEN.period:
         turns.direction = -way
-        found = solve_ivp(
+        solution = solve_ivp(
             rates, (t, SHAKEN.period), y, "DOP853", events=turns, rtol=1e-13, atol=1e-15
         )
-        t, y, way = found.t[-1], found.y[:, -1].copy(), -way
-        y[1] *= found.status == 0
+        t, y, way = solution.t[-1], solution.y[:, -1].copy(), -way
+        y[1] *= solution.status == 0
     return y[2:].reshape(2, 2)
 
 

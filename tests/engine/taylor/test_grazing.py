@@ -38,8 +38,8 @@ class Side(NamedTuple):
         return rig.replace(**{self.name: stop.replace(gap=gap)})
 
     def reach(self, rig: vi.Oscillator) -> float:
-        found = vi.totals(moved(rig, self))
-        return float(found["displacement_max"] if self.sign > 0 else -found["displacement_min"])
+        totals = vi.totals(moved(rig, self))
+        return float(totals["displacement_max"] if self.sign > 0 else -totals["displacement_min"])
 
     def events(self, data: xr.Dataset) -> np.ndarray:
         return np.flatnonzero(np.where(data["event_stop"].values == "right", 1, -1) == self.sign)
@@ -66,9 +66,9 @@ def test_every_pass_is_found_and_none_is_invented(
     for depth in DEPTHS:
         gap = reach * (1.0 - depth)
         data = moved(side.against(free, STOPS[stop], gap), side)
-        found = side.events(data)
-        assert len(found), depth
-        first = float(data["event_time"][found[0]])
+        events = side.events(data)
+        assert len(events), depth
+        first = float(data["event_time"][events[0]])
         passed = moved(free, side, first * SHAKEN.frequency, 500)["displacement"].values * side.sign
         assert abs(passed[-1] - gap) < ROUNDING * reach, depth
         assert passed[:-1].max() < gap + ROUNDING * reach, depth

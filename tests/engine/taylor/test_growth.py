@@ -23,10 +23,10 @@ PLAIN = [name for name in ISOLATORS if name not in (*HYSTERETIC, "friction")]
 @pytest.mark.parametrize("isolator", sample(PLAIN, PLAIN[::3]))
 def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None) -> None:
     """Where only displacement and velocity are remembered."""
-    found = vi.lyapunov_exponents(vi.Rig(between(isolator, stop), 0.6), [FREQUENCY], 200)
-    damping = float(found["effective_damping"].squeeze())
+    data = vi.lyapunov_exponents(vi.Rig(between(isolator, stop), 0.6), [FREQUENCY], 200)
+    damping = float(data["effective_damping"].squeeze())
     assert damping > 0.05
-    assert float(found["exponents"].sum()) == pytest.approx(-damping, rel=1e-6)
+    assert float(data["exponents"].sum()) == pytest.approx(-damping, rel=1e-6)
 
 
 @pytest.mark.parametrize("stop", ["spring", "rigid", "hunt-crossley", "flores"])
@@ -41,14 +41,14 @@ def test_the_exponents_of_an_orbit_are_those_of_its_determinant(isolator: str, s
     start = engine_state(rig, vi.State(*state.values[:2]))
     rows, _, _ = carried(rig, start, period, vi.Harmonic(0.6, FREQUENCY))
     area = math.log(abs(np.linalg.det(rows[:2, :2]))) / period * FREQUENCY
-    found = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 200, start=state)
-    assert float(found["exponents"].sum()) == pytest.approx(area, rel=1e-5)
+    data = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 200, start=state)
+    assert float(data["exponents"].sum()) == pytest.approx(area, rel=1e-5)
 
 
 @pytest.mark.parametrize("isolator", ["linear", "drag"])
 def test_free_flight(isolator: str) -> None:
     """Both exponents are half of the damping's mean where the motion turns."""
     rig = between(isolator, None)
-    found = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 1000)
-    damping = float(found["effective_damping"].squeeze())
-    np.testing.assert_allclose(np.ravel(found["exponents"]), -0.5 * damping, rtol=5e-3)
+    data = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 1000)
+    damping = float(data["effective_damping"].squeeze())
+    np.testing.assert_allclose(np.ravel(data["exponents"]), -0.5 * damping, rtol=5e-3)

@@ -63,5 +63,5 @@ def test_a_hair_before_and_behind_a_grazing(name: str) -> None:
         for sign in (-1.0, 1.0):
             gap = most * (1.0 + sign * distance)
             near = rig.replace(right=rig.right.replace(gap=gap), left=None)
-            found = vi.simulate(vi.Rig(near, shaken), 1, vi.State(0.1, 0.5), 1)
-            assert bool(found["event_time"].size) == (sign < 0.0), (distance, sign)
+            motion = vi.simulate(vi.Rig(near, shaken), 1, vi.State(0.1, 0.5), 1)
+            assert bool(motion["event_time"].size) == (sign < 0.0), (distance, sign)

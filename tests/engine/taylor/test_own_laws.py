@@ -25,8 +25,8 @@ SHAKEN = vi.Harmonic(0.6, 0.17, 0.4)
 
 
 def program(*operations: str | int, numbers: tuple[float, ...] = ()) -> list[float]:
-    found = [one if isinstance(one, int) else SYMBOLS.index(one) for one in operations]
-    return pack(Program(tuple(found), numbers), 0.0)
+    codes = [one if isinstance(one, int) else SYMBOLS.index(one) for one in operations]
+    return pack(Program(tuple(codes), numbers), 0.0)
 
 
 def end_of(rig: np.ndarray, cycles: int = 20) -> np.ndarray:
@@ -143,11 +143,11 @@ def test_a_motion_agrees_with_a_general_integrator(name: str) -> None:
             return y[0]
 
         passes.terminal, passes.direction = True, -side
-        found = solve_ivp(
+        solution = solve_ivp(
             rates, (t, SHAKEN.period), y, "DOP853", events=passes, rtol=1e-13, atol=1e-15,
             max_step=0.1,
         )  # fmt: skip
-        t, y, side = found.t[-1], found.y[:, -1].copy(), -side
+        t, y, side = solution.t[-1], solution.y[:, -1].copy(), -side
     np.testing.assert_allclose(data["final_state"].values[:2], y, atol=3e-12)
 
 

@@ -38,8 +38,8 @@ def test_samples_lie_on_the_motion(isolator: str, stop: str) -> None:
     for k in (1, 11, 30, 52, 74):
         end = followed(rig, SHAKEN, k / 37, started(rig, 0.1, 0.3))
         now = data.isel(time=k)
-        found = [float(now["displacement"]), float(now["velocity"])]
-        np.testing.assert_allclose(found, end[2:4], atol=1e-12)
+        point = [float(now["displacement"]), float(now["velocity"])]
+        np.testing.assert_allclose(point, end[2:4], atol=1e-12)
 
 
 @pytest.mark.parametrize("isolator", sample([*ISOLATORS], [*ISOLATORS][::3]))

@@ -20,12 +20,12 @@ SHAKEN = vi.Harmonic(0.4, 0.05, 3.1)
 
 def both(rig, shaken, samples=1, cycles=8):
     """The motion by tables and by Taylor steps; neither is given up."""
-    found = [
+    runs = [
         followed(vector, shaken, started(rig), 0.0, samples, cycles)
         for vector in vectors(rig, shaken)
     ]
-    assert [one[0] for one in found] == [0, 0]
-    return found
+    assert [one[0] for one in runs] == [0, 0]
+    return runs
 
 
 CASES = {

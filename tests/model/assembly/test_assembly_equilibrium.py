@@ -16,8 +16,8 @@ GROUND = "ground"
 
 
 def rest(assembly):
-    found = equilibrium(assembly).displacement
-    return np.array([found.get(name, 0.0) for name in assembly.names])
+    displacement = equilibrium(assembly).displacement
+    return np.array([displacement.get(name, 0.0) for name in assembly.names])
 
 
 def alone(oscillator):
@@ -64,34 +64,34 @@ def test_one_mass_rests_where_the_oscillator_does(law, force):
         except InputError:
             continue
         expected = equilibrium(one)
-        found = equilibrium(alone(one))
+        state = equilibrium(alone(one))
         tried += 1
         size = max(abs(expected.displacement), 1e-6)
-        assert found.displacement.get("m", 0.0) == pytest.approx(
+        assert state.displacement.get("m", 0.0) == pytest.approx(
             expected.displacement, abs=1e-8 * size
         ), (right, left)
-        memory = found.memory.get("isolator", 0.0)
+        memory = state.memory.get("isolator", 0.0)
         assert memory == pytest.approx(expected.isolator, rel=1e-7, abs=1e-12)
     assert tried >= 0.9 * len(PAIRS)
 
 
 def test_two_masses_under_forces_by_hand():
-    found = vi.chain([1.0, 1.0], [100.0, 50.0], forces={"floor_2": 10.0})
-    np.testing.assert_allclose(rest(found), [0.1, 0.3], rtol=1e-14)
+    chain = vi.chain([1.0, 1.0], [100.0, 50.0], forces={"floor_2": 10.0})
+    np.testing.assert_allclose(rest(chain), [0.1, 0.3], rtol=1e-14)
 
 
 def test_a_bumper_between_masses_shares_the_force():
     # The second mass is pushed to the left onto a bumper of the first: 50 and 200 N/m in parallel.
     stops = {"pad": vi.Link("floor_1", "floor_2", vi.Bumper(200.0, 1.0, 0.0))}
-    found = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops, forces={"floor_2": -10.0})
-    np.testing.assert_allclose(rest(found), [-0.1, -0.1 - 10.0 / 250.0], rtol=1e-13)
+    chain = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops, forces={"floor_2": -10.0})
+    np.testing.assert_allclose(rest(chain), [-0.1, -0.1 - 10.0 / 250.0], rtol=1e-13)
 
 
 def test_a_preload_between_masses_without_forces():
     stops = {"pad": vi.Link("floor_1", "floor_2", vi.Bumper(150.0, 1.0, -0.04))}
-    found = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops)
+    chain = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops)
     # 50 s = 150 (0.04 − s), and nothing else pushes the first mass.
-    np.testing.assert_allclose(rest(found), [0.0, 0.03], atol=1e-15)
+    np.testing.assert_allclose(rest(chain), [0.0, 0.03], atol=1e-15)
 
 
 def test_rigid_stops_carry_the_force_to_the_wall():
@@ -99,8 +99,8 @@ def test_rigid_stops_carry_the_force_to_the_wall():
         "between": vi.Link("floor_1", "floor_2", vi.RigidStop(0.5, 0.01)),
         "wall": vi.Link(GROUND, "floor_1", vi.RigidStop(0.5, 0.02)),
     }
-    found = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops, forces={"floor_2": -100.0})
-    np.testing.assert_allclose(rest(found), [-0.02, -0.03], rtol=1e-13)
+    chain = vi.chain([1.0, 1.0], [100.0, 50.0], stops=stops, forces={"floor_2": -100.0})
+    np.testing.assert_allclose(rest(chain), [-0.02, -0.03], rtol=1e-13)
 
 
 def test_free_masses_are_pressed_in_a_row():
@@ -110,17 +110,17 @@ def test_free_masses_are_pressed_in_a_row():
         "bc": vi.Link("b", "c", vi.Bumper(200.0, 0.0, 0.05)),
         "wall": vi.Link("c", GROUND, vi.Bumper(400.0, 0.0, 0.1)),
     }
-    found = rest(vi.Assembly(masses, stops=stops, forces={"a": 2.0}))
+    positions = rest(vi.Assembly(masses, stops=stops, forces={"a": 2.0}))
     c = 0.1 + 2.0 / 400.0
     b = c + 0.05 + 2.0 / 200.0
-    np.testing.assert_allclose(found, [b + 0.05 + 2.0 / 100.0, b, c], rtol=1e-12)
+    np.testing.assert_allclose(positions, [b + 0.05 + 2.0 / 100.0, b, c], rtol=1e-12)
 
 
 def test_a_free_mass_without_a_force_stays():
     stops = {"wall": vi.Link("ball", GROUND, vi.Bumper(100.0, 0.0, 0.05))}
     spring = {"spring": vi.Link(GROUND, "host", vi.Isolator(10.0, 0.1))}
-    found = vi.Assembly({"host": 1.0, "ball": 1.0}, spring, stops, {"host": 1.0})
-    np.testing.assert_allclose(rest(found), [0.1, 0.0], atol=1e-15)
+    assembly = vi.Assembly({"host": 1.0, "ball": 1.0}, spring, stops, {"host": 1.0})
+    np.testing.assert_allclose(rest(assembly), [0.1, 0.0], atol=1e-15)
 
 
 def test_masses_that_no_force_reaches_move_exactly_as_their_host():
@@ -147,8 +147,8 @@ def test_masses_that_no_force_reaches_move_exactly_as_their_host():
         }
         links["ball"] = vi.Link(GROUND, "e", springs[5])
         names = [str(one) for one in rng.permutation(list(masses))]
-        found = vi.Assembly(dict.fromkeys(names, 1.0), links, stops, {"b": 2.0})
-        u = equilibrium(found).displacement
+        assembly = vi.Assembly(dict.fromkeys(names, 1.0), links, stops, {"b": 2.0})
+        u = equilibrium(assembly).displacement
         assert u["c"] == u["d"] == u["b"] > u["e"] + 0.1 > 0.1
         pressed = 40.0 * (u["b"] - u["e"] - 0.1)
         assert springs[5].stiffness * u["e"] == pytest.approx(pressed, rel=1e-9)
@@ -203,11 +203,13 @@ def test_curved_links_balance_by_their_static_forces():
         "bearing": vi.Link(GROUND, "p", vi.BoucWenIsolator(100.0, 10.0, 2.0, 0.5)),
         "storey": vi.Link("p", "q", vi.PolynomialIsolator(50.0, 0.1, 4000.0)),
     }
-    found = vi.Assembly({"p": 1.0, "q": 1.0}, links, forces={"q": 4.0})
-    p, q = rest(found)
+    assembly = vi.Assembly({"p": 1.0, "q": 1.0}, links, forces={"q": 4.0})
+    p, q = rest(assembly)
     assert links["bearing"].law.static_force(p) == pytest.approx(4.0, rel=1e-8)
     assert links["storey"].law.static_force(q - p) == pytest.approx(4.0, rel=1e-8)
-    assert equilibrium(found).memory["bearing"] == pytest.approx(links["bearing"].law.remembered(p))
+    assert equilibrium(assembly).memory["bearing"] == pytest.approx(
+        links["bearing"].law.remembered(p)
+    )
 
 
 @st.composite
@@ -260,9 +262,9 @@ def linear(draw):
     )
 )
 def test_linear_equilibria_agree_with_all_ways_to_press_the_stops(assembly):
-    found = rest(assembly)
+    positions = rest(assembly)
     best = enumerated(assembly)
-    np.testing.assert_allclose(found, best, atol=1e-9 * max(np.abs(best).max(), 1e-2))
+    np.testing.assert_allclose(positions, best, atol=1e-9 * max(np.abs(best).max(), 1e-2))
 
 
 def enumerated(assembly):

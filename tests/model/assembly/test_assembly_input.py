@@ -248,9 +248,9 @@ def test_bad_input_is_one_line(case):
     make, message = BAD[case]
     with pytest.raises(InputError, match=message) as caught:
         make()
-    told = str(caught.value)
-    assert "\n" not in told
-    assert len(told) <= 330
+    text = str(caught.value)
+    assert "\n" not in text
+    assert len(text) <= 330
 
 
 def test_a_formula_is_replaced_by_the_built_in_law():
@@ -284,12 +284,12 @@ def test_repr_makes_an_equal_assembly():
 def test_a_table_of_a_bumper_may_have_the_restitution_of_the_mass_that_meets():
     stop = {"left": "base", "right": "roof", "stiffness": "1 MN/m", "restitution": 0.6, "gap": 0.1}
     wall = {**stop, "right": GROUND}
-    found = building(stops={"pad": stop, "moat": wall})
+    assembly = building(stops={"pad": stop, "moat": wall})
     reduced = 300e3 * 250e3 / 550e3
     expected = vi.Bumper.from_restitution(reduced, "1 MN/m", 0.6, 0.1)
-    assert found.stops["pad"].law.damping == pytest.approx(expected.damping, rel=1e-14)
+    assert assembly.stops["pad"].law.damping == pytest.approx(expected.damping, rel=1e-14)
     expected = vi.Bumper.from_restitution(300e3, "1 MN/m", 0.6, 0.1)
-    assert found.stops["moat"].law.damping == pytest.approx(expected.damping, rel=1e-14)
+    assert assembly.stops["moat"].law.damping == pytest.approx(expected.damping, rel=1e-14)
 
 
 def test_jankowski_has_the_mass_of_the_two_bodies_unless_it_is_passed():
@@ -299,8 +299,8 @@ def test_jankowski_has_the_mass_of_the_two_bodies_unless_it_is_passed():
         "wall": vi.Link(GROUND, "roof", law),
         "own": vi.Link("base", GROUND, law.replace(mass="7 t")),
     }
-    found = {stop.name: stop.law.mass for stop in numbers(building(stops=stops)).stops}
-    assert found == pytest.approx(
+    masses = {stop.name: stop.law.mass for stop in numbers(building(stops=stops)).stops}
+    assert masses == pytest.approx(
         {"pad": 300e3 * 250e3 / 550e3, "wall": 250e3, "own": 7e3}, rel=1e-14
     )
     heavier = building(masses={"base": "300 t", "roof": "500 t"}, stops=stops)
@@ -309,19 +309,19 @@ def test_jankowski_has_the_mass_of_the_two_bodies_unless_it_is_passed():
 
 def test_numbers_have_indices_and_signs():
     links = {**LINKS, "brace": vi.Link("roof", "base", vi.PolynomialIsolator(1e6, 0.0, 2e6))}
-    found = numbers(building(links=links, forces={"roof": "5 kN"}, damping=vi.ModalDamping(0.02)))
-    assert found.names == ("base", "roof")
-    np.testing.assert_array_equal(found.stiffness, [[205e6, -200e6], [-200e6, 200e6]])
-    np.testing.assert_array_equal(found.force, [0.0, 5e3])
-    np.testing.assert_array_equal(found.influence, [1.0, 1.0])
-    np.testing.assert_array_equal(found.mass, np.diag([300e3, 250e3]))
+    system = numbers(building(links=links, forces={"roof": "5 kN"}, damping=vi.ModalDamping(0.02)))
+    assert system.names == ("base", "roof")
+    np.testing.assert_array_equal(system.stiffness, [[205e6, -200e6], [-200e6, 200e6]])
+    np.testing.assert_array_equal(system.force, [0.0, 5e3])
+    np.testing.assert_array_equal(system.influence, [1.0, 1.0])
+    np.testing.assert_array_equal(system.mass, np.diag([300e3, 250e3]))
     # Modal damping is added to the dashpots.
-    assert (np.linalg.eigvalsh(found.damping - [[1.2e6, -1e6], [-1e6, 1e6]]) > 0.0).all()
-    (brace,) = found.links
+    assert (np.linalg.eigvalsh(system.damping - [[1.2e6, -1e6], [-1e6, 1e6]]) > 0.0).all()
+    (brace,) = system.links
     assert (brace.name, brace.left, brace.right, brace.law.kind) == ("brace", 1, 0, "polynomial")
     assert brace.law.cubic == 2e6
     assert np.isnan(brace.gap)
-    (moat,) = found.stops
+    (moat,) = system.stops
     assert (moat.left, moat.right, moat.gap, moat.law.kind) == (0, -1, 0.1, "kelvin-voigt")
     assert (moat.law.stiffness, moat.law.damping) == (60e6, 0.9e6)
 
@@ -415,17 +415,19 @@ def test_an_isolator_carries_all_that_stands_on_it(ends, order):
         links = {**STOREYS, "isolator": {"left": left, "right": right, **table}}
         return vi.Assembly(FRAME, dict(list(links.items())[::order]))
 
-    told = "the mass that this link carries is assumed to be 1000 t, that of 'base', 'first', 'sec"
-    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.radius: {told}"):
+    assumption = (
+        "the mass that this link carries is assumed to be 1000 t, that of 'base', 'first', 'sec"
+    )
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.radius: {assumption}"):
         made = frame(**PENDULUM)
     law = made.links["isolator"].law
     assert law == vi.FrictionIsolator.from_pendulum("1000 t", "1.5 m", 0.05)
     assert (law.stiffness, law.friction) == pytest.approx((6537.77e3, 490.33e3), rel=1e-5)
-    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.post_yield_period: {told}"):
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.post_yield_period: {assumption}"):
         made = frame(**LEAD)
     values = {key: value for key, value in LEAD.items() if key != "kind"}
     assert made.links["isolator"].law == vi.BilinearIsolator.from_strength("1000 t", **values)
-    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.strength: {told}"):
+    with pytest.warns(vi.InputWarning, match=rf"^links\.isolator\.strength: {assumption}"):
         made = frame(**{**LEAD, "strength": 0.05})
     assert made.links["isolator"].law == vi.BilinearIsolator.from_strength(
         "1000 t", **{**values, "strength": 0.05}
@@ -448,12 +450,12 @@ def test_an_assumed_mass_is_in_the_notes_of_results():
     links = {**STOREYS, "isolator": {**ends, "period": "2 s", "damping_ratio": 0.1}}
     with pytest.warns(vi.InputWarning):
         made = vi.Assembly(FRAME, links)
-    told = (
+    assumption = (
         "links.isolator.period: the mass that this link carries is assumed to be 1000 t, that of "
         "'base', 'first', 'second' and 'roof'"
     )
-    assert made.assumptions == (told,)
-    assert pickle.loads(pickle.dumps(made)).assumptions == (told,)
+    assert made.assumptions == (assumption,)
+    assert pickle.loads(pickle.dumps(made)).assumptions == (assumption,)
     rig = vi.Rig(made, vi.Harmonic("0.5 g", "0.6 Hz"))
     motion = vi.simulate(rig, 2, samples=8)
     record = vi.Record([0.0, 1.0, 0.0], 0.1)
@@ -465,7 +467,7 @@ def test_an_assumed_mass_is_in_the_notes_of_results():
         vi.seismic_response(vi.Rig(made, record)),
         vi.demands({"a": made}, {"r": record}),
     ):
-        assert data.attrs["notes"].splitlines().count(told) == 1, data.attrs["created_by"]
+        assert data.attrs["notes"].splitlines().count(assumption) == 1, data.attrs["created_by"]
     plain = made.replace(links={**made.links, "isolator": made.links["isolator"].replace()})
     assert plain == made
     assert hash(plain) == hash(made)

@@ -32,9 +32,9 @@ def test_matrices_of_a_chain_are_that_chain():
     )
     np.testing.assert_allclose(same.natural_frequencies, chain.natural_frequencies, rtol=1e-14)
     np.testing.assert_allclose(same.damping_ratios, 0.03, rtol=1e-12)
-    found = numbers(same)
-    np.testing.assert_allclose(found.damping, chain.damping_matrix, rtol=1e-15)
-    assert found.stops[0].left == 0
+    system = numbers(same)
+    np.testing.assert_allclose(system.damping, chain.damping_matrix, rtol=1e-15)
+    assert system.stops[0].left == 0
     # 1/(w M⁻¹ wᵀ) is the reduced mass.
     assert same.meeting_mass(stops["pad"]) == pytest.approx(6.0 / 5.0, rel=1e-15)
     assert vi.Assembly.model_validate(same.model_dump()) == same
@@ -42,9 +42,9 @@ def test_matrices_of_a_chain_are_that_chain():
 
 
 def test_names_and_influence_have_defaults():
-    found = make()
-    assert found.names == ("dof_1", "dof_2")
-    np.testing.assert_array_equal(found.influence, [1.0, 1.0])
+    assembly = make()
+    assert assembly.names == ("dof_1", "dof_2")
+    np.testing.assert_array_equal(assembly.influence, [1.0, 1.0])
     np.testing.assert_array_equal(make(influence=[1.0, 0.0]).influence, [1.0, 0.0])
     np.testing.assert_array_equal(make(damping=None).damping_matrix, np.zeros((2, 2)))
 
@@ -57,23 +57,23 @@ def test_a_consistent_mass_matrix_of_a_rod():
         both = np.ix_([i, i + 1], [i, i + 1])
         mass[both] += h / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
         stiffness[both] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / h
-    found = make(sparse.csr_matrix(mass[1:, 1:]), None, sparse.csr_matrix(stiffness[1:, 1:]))
-    omega = math.tau * found.natural_frequencies[:3]
+    rod = make(sparse.csr_matrix(mass[1:, 1:]), None, sparse.csr_matrix(stiffness[1:, 1:]))
+    omega = math.tau * rod.natural_frequencies[:3]
     exact = (2 * np.arange(1, 4) - 1) * math.pi / 2
     np.testing.assert_allclose(omega, exact * (1.0 + (exact * h) ** 2 / 24.0), rtol=1e-4)
-    assert found.effective_masses.sum() == pytest.approx(mass[1:, 1:].sum())
+    assert rod.effective_masses.sum() == pytest.approx(mass[1:, 1:].sum())
 
 
 def test_a_rule_may_damp_matrices():
-    found = make(damping=vi.ModalDamping(0.02))
-    np.testing.assert_allclose(found.damping_ratios, 0.02, rtol=1e-13)
+    assembly = make(damping=vi.ModalDamping(0.02))
+    np.testing.assert_allclose(assembly.damping_ratios, 0.02, rtol=1e-13)
 
 
 def test_links_are_added_to_matrices():
     links = {"brace": vi.Link("ground", "dof_2", vi.Isolator(5.0, 0.5))}
-    found = make(links=links)
-    np.testing.assert_array_equal(found.stiffness_matrix, [[3.0, -1.0], [-1.0, 6.0]])
-    np.testing.assert_allclose(found.damping_matrix, [[0.4, -0.1], [-0.1, 0.6]])
+    assembly = make(links=links)
+    np.testing.assert_array_equal(assembly.stiffness_matrix, [[3.0, -1.0], [-1.0, 6.0]])
+    np.testing.assert_allclose(assembly.damping_matrix, [[0.4, -0.1], [-0.1, 0.6]])
 
 
 @pytest.mark.parametrize("ending", ["npz", "npy", "csv", "txt"])
@@ -102,8 +102,8 @@ def test_one_npz_file_may_hold_all(tmp_path):
 
 
 def test_asymmetry_of_rounding_is_accepted():
-    found = make(stiffness=[[3.0, -1.0], [-1.0 + 1e-9, 1.0]]).stiffness_matrix
-    np.testing.assert_array_equal(found, found.T)
+    stiffness = make(stiffness=[[3.0, -1.0], [-1.0 + 1e-9, 1.0]]).stiffness_matrix
+    np.testing.assert_array_equal(stiffness, stiffness.T)
 
 
 BAD = {

@@ -61,13 +61,13 @@ def test_a_path_of_all_stops() -> None:
 
 
 def test_values_are_set_at_once() -> None:
-    found = set_values(
+    system = set_values(
         rig(),
         {"links.storey.stiffness": "70 kN/m", "masses.base": 310, "forces.base": "2 N"},
     ).system
-    assert found.links["storey"].law.stiffness == 7e4
-    assert found.masses["base"] == 310.0
-    assert dict(found.forces) == {"roof": 5.0, "base": 2.0}
+    assert system.links["storey"].law.stiffness == 7e4
+    assert system.masses["base"] == 310.0
+    assert dict(system.forces) == {"roof": 5.0, "base": 2.0}
 
 
 @pytest.mark.parametrize(

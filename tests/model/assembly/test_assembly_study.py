@@ -55,12 +55,12 @@ def test_a_study_file_describes_an_assembly(tmp_path):
     assert rig.name == "two storeys"
     assert rig.frequency is None
     assert rig.shaking.on == "Roof-2"
-    found = rig.system
-    assert found.names == ("base", "Roof-2")
-    assert found.links["isolator"].law == vi.BilinearIsolator(20e6, 5e6, 200e3, 0.2e6)
-    assert found.stops["pad"] == vi.Link("ground", "Roof-2", vi.RigidStop(0.6, 0.2))
-    assert found.forces == {"Roof-2": 5e3}
-    assert found.damping == vi.ModalDamping(0.02)
+    assembly = rig.system
+    assert assembly.names == ("base", "Roof-2")
+    assert assembly.links["isolator"].law == vi.BilinearIsolator(20e6, 5e6, 200e3, 0.2e6)
+    assert assembly.stops["pad"] == vi.Link("ground", "Roof-2", vi.RigidStop(0.6, 0.2))
+    assert assembly.forces == {"Roof-2": 5e3}
+    assert assembly.damping == vi.ModalDamping(0.02)
 
 
 def test_a_study_that_is_written_is_read_as_the_same_rig(tmp_path):
@@ -125,9 +125,9 @@ def test_matrices_may_be_files_beside_the_study(tmp_path):
         restitution = 0.5
         gap = 0.1
     """
-    found = read(tmp_path, text).system
-    assert found.names == ("lower", "upper")
-    np.testing.assert_array_equal(found.stiffness_matrix, [[3.0, -1.0], [-1.0, 1.0]])
+    assembly = read(tmp_path, text).system
+    assert assembly.names == ("lower", "upper")
+    np.testing.assert_array_equal(assembly.stiffness_matrix, [[3.0, -1.0], [-1.0, 1.0]])
 
 
 def test_a_record_is_not_written():
@@ -170,13 +170,13 @@ def test_a_command_of_one_mass_refuses_it(tmp_path, capsys):
     path = tmp_path / "building.toml"
     path.write_text(BUILDING, encoding="utf-8")
     assert main(["classify", str(path)]) != 0
-    told = capsys.readouterr().err
-    assert "one mass, not an assembly of several masses" in told
-    assert told.count("\n") == 1
+    text = capsys.readouterr().err
+    assert "one mass, not an assembly of several masses" in text
+    assert text.count("\n") == 1
     accepting = [
         path.stem
         for path in Path(vibroimpact.cli.__file__).parent.glob("*.py")
         if "masses=True)" in path.read_text(encoding="utf-8")
     ]
-    listed = re.search(r"use vibroimpact (.*)", told)[1]
+    listed = re.search(r"use vibroimpact (.*)", text)[1]
     assert sorted(re.split(", | or ", listed)) == sorted(accepting)
