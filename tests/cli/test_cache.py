@@ -29,7 +29,7 @@ def kept(tmp_path, monkeypatch) -> Path:
     """A cache of this version and of another one, two days old."""
     monkeypatch.setenv("VIBROIMPACT_CACHE_DIR", str(tmp_path / "kept"))
     own = own_folder()
-    for folder, flows in ((own, ("Apart", "Curved")), (own.with_name("engine-0"), ("Apart",))):
+    for folder, flows in ((own, ("Bumpers", "Curved")), (own.with_name("engine-0"), ("Bumpers",))):
         for flow in flows:
             parts = folder / flow / "engine_0123"
             parts.mkdir(parents=True)
@@ -75,11 +75,11 @@ def test_other_versions_are_removed(run, kept):
     assert {p.name for p in kept.parent.iterdir()} == {kept.name, "mine.txt"}
     assert compiled(kept) == 4
     assert (facts["size"], facts["removed"], facts["in_use"]) == (4_000_000, 2_000_000, [])
-    assert facts["kept"][0]["flows"] == ["Apart", "Curved"]
+    assert facts["kept"][0]["flows"] == ["Bumpers", "Curved"]
 
 
 def test_all_is_removed_but_what_another_process_uses(run, kept):
-    lock = kept / "Apart" / "lock"
+    lock = kept / "Bumpers" / "lock"
     holds = subprocess.Popen(
         [sys.executable, "-c", HOLD, str(lock)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     )
@@ -88,7 +88,7 @@ def test_all_is_removed_but_what_another_process_uses(run, kept):
         code, out, _ = run("--clean", "all")
         assert code == 0
         assert f"kept, because another process uses it: {kept.name}" in out
-        assert (compiled(kept / "Apart"), compiled(kept / "Curved")) == (2, 0)
+        assert (compiled(kept / "Bumpers"), compiled(kept / "Curved")) == (2, 0)
     finally:
         holds.communicate(b"")
     _, out, _ = run("--clean", "all")

@@ -31,7 +31,7 @@ RIGS = {
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(cubic=1.0)),
     "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=_YIELDS),
     "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
-    "Apart": free_rig(),
+    "Bumpers": free_rig(),
     "Several": rig_vector(1.0, 1.0, 0.1, None, None, drive=_SEVERAL),
     "Recorded": rig_vector(1.0, 1.0, 0.1, None, None, drive=_RECORD),
     "YieldingSeveral": rig_vector(1.0, 1.0, 0.1, None, None, drive=_SEVERAL, law=_YIELDS),
@@ -61,7 +61,7 @@ def entries() -> list[Entry]:
 def parts(flow: str) -> list[Callable[[], object]]:
     """What compiles or loads each group of the functions of a flow, or each entry."""
     if flow == ENTRIES:
-        return [partial(entry.of, plan_of(RIGS["Apart"], ())) for entry in entries()]
+        return [partial(entry.of, plan_of(RIGS["Bumpers"], ())) for entry in entries()]
     groups = GROUPS.get(flow, tuple(flow_tables.GROUPS))
     return [partial(plan_of, RIGS[flow], (group,)) for group in groups]
 

@@ -35,7 +35,7 @@ BUMPER = (20.0, 2.0, 0.3)
 HARMONICS = Drive(weights=((1.0, 0.0), (0.0, 0.3)))
 YIELDS = IsolatorNumbers(hysteretic=1.5, limit=0.3)
 RIGS = {
-    "Apart": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER),
+    "Bumpers": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER),
     "AnyStops": rig_vector(1.0, 4.0, 0.1, (0.7, 0.3), BUMPER),
     "Several": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, drive=HARMONICS),
     "Curved": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, law=IsolatorNumbers(cubic=1.0)),
@@ -200,7 +200,7 @@ def test_free_flight_in_closed_form() -> None:
     start = np.zeros(ONE_MASS.width)
     omega = math.tau * FREQUENCY
     response = -0.1 / (4.0 - omega**2 + 0.1j * omega)
-    assert freely(RIGS["Apart"], 0.1, FREQUENCY, start, out) == 1
+    assert freely(RIGS["Bumpers"], 0.1, FREQUENCY, start, out) == 1
     angle = complex(C, S)
     expected = [(response * angle).imag, (1j * omega * response * angle).imag]
     np.testing.assert_allclose(out[3:], expected, rtol=1e-13)
@@ -208,7 +208,7 @@ def test_free_flight_in_closed_form() -> None:
     assert out[1] == pytest.approx(out[2], rel=1e-15)
     assert out[1] == pytest.approx(abs(response) * abs(complex(4.0, 0.1 * omega)), rel=1e-13)
     # It would touch a stop; and curved laws have no closed form.
-    assert freely(RIGS["Apart"], 10.0, FREQUENCY, start, out) == 0
+    assert freely(RIGS["Bumpers"], 10.0, FREQUENCY, start, out) == 0
     assert freely(RIGS["Curved"], 0.1, FREQUENCY, start, out) == 0
 
 

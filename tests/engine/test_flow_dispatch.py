@@ -10,7 +10,7 @@ import pytest
 from engine.for_flow import ForFlow
 from vibroimpact.engine.flow_dispatch import (
     AnyStops,
-    Apart,
+    Bumpers,
     Curved,
     Yielding,
     carries,
@@ -31,11 +31,11 @@ def rig(right: StopNumbers | None, left: StopNumbers | None) -> np.ndarray:
 @pytest.mark.parametrize(
     ("right", "left", "flow"),
     [
-        (None, None, Apart),
-        (BUMPER, BUMPER, Apart),
-        (BUMPER, (20.0, 0.4, -0.5), Apart),  # preloaded, but out of the other one's reach
-        (BUMPER, (20.0, 0.4, -1.0), Apart),  # touched at one place both, pressed never
-        (None, (20.0, 0.4, -1.0), Apart),
+        (None, None, Bumpers),
+        (BUMPER, BUMPER, Bumpers),
+        (BUMPER, (20.0, 0.4, -0.5), Bumpers),  # preloaded, but out of the other one's reach
+        (BUMPER, (20.0, 0.4, -1.0), Bumpers),  # touched at one place both, pressed never
+        (None, (20.0, 0.4, -1.0), Bumpers),
         (BUMPER, (20.0, 0.4, -1.5), AnyStops),
         ((20.0, 0.4, -0.1), (20.0, 0.4, -0.1), AnyStops),
         (WALL, None, AnyStops),
@@ -46,9 +46,9 @@ def test_the_flow_follows_from_the_stops(
     right: StopNumbers | None, left: StopNumbers | None, flow: type
 ) -> None:
     for sides in ((right, left), (left, right)):
-        given = flow_of(rig(*sides))
-        assert type(given) is flow
-        assert given.memory.shape == (PLAN,)
+        storage = flow_of(rig(*sides))
+        assert type(storage) is flow
+        assert storage.memory.shape == (PLAN,)
 
 
 POWER = PowerLaw(20.0, 1.5, 0.0, 0.0, 1.0)
@@ -101,15 +101,15 @@ def test_a_curved_flow_carries_rigs_that_have_no_more_laws(
     assert carries(made, other) == carried
 
 
-def _gap(given, vector):
-    plan = planned(given, vector)
-    return plan[5] + 0.0 * given.memory[0]
+def _gap(storage, vector):
+    plan = planned(storage, vector)
+    return plan[5] + 0.0 * storage.memory[0]
 
 
 def test_a_rig_pays_for_its_own_flow_only() -> None:
     entry = ForFlow(_gap, "f8(f8[::1])")
     assert entry(free_rig()) == math.inf
-    assert set(entry._compiled) == {Apart}
+    assert set(entry._compiled) == {Bumpers}
     assert entry(rig(WALL, None)) == WALL[1]
-    assert set(entry._compiled) == {Apart, AnyStops}
+    assert set(entry._compiled) == {Bumpers, AnyStops}
     assert SIZE > 5

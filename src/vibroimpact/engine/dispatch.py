@@ -1,12 +1,14 @@
 """One function in place of several kernels: the type of a plan chooses when a caller is compiled.
 
-The flows of one mass answer the same questions: tables of closed-form motion where all laws are
-linear, Taylor series elsewhere, and tables again for isolators that yield or slide. A question is
-declared once, with its arguments, below the kernels that answer it.
+The flows of one mass answer the same questions: with tables of closed-form motion where all laws
+are linear, with Taylor series where they are curved; an isolator that yields or slides has tables
+to the next event, and Taylor series for the rest. A question is declared once, with its arguments,
+under a decorator that names the kernels which answer it.
 """
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
@@ -27,8 +29,8 @@ def by_laws(
     Parameters
     ----------
     linear, curved, yielding
-        The kernels: where all laws are linear, of Taylor series, and of isolators that yield or
-        slide (default: that of Taylor series).
+        The kernels: where all laws are linear (also of a plan whose type has no laws), where they
+        are curved, and of an isolator that yields or slides (default: that of curved laws).
     """
     kernels = linear, curved, yielding or curved
 
@@ -38,10 +40,10 @@ def by_laws(
     def of_type(plan: Any) -> Any:
         return kernels[getattr(plan, "laws", LINEAR)]
 
-    return replacing(kernels, plain, of_type)
+    return in_place_of(kernels, plain, of_type)
 
 
-def replacing(
+def in_place_of(
     kernels: Iterable[Callable[..., Any]],
     plain: Callable[..., Any],
     of_type: Callable[[Any], Any],
@@ -55,7 +57,7 @@ def replacing(
     plain
         What it does without a compiler.
     of_type
-        The kernel that it is to numba, by the type of the plan.
+        What it is to numba, by the type of the plan: a kernel, or a function of Python.
 
     Raises
     ------
@@ -64,21 +66,25 @@ def replacing(
     """
 
     def declare(described: F) -> F:
-        name, wanted = described.__name__, _arguments(described)
+        wanted = _arguments(described)
         for one in kernels:
             if _arguments(one) != wanted:
-                raise TypeError(f"{one.__module__}.{name}: not the arguments {', '.join(wanted)}")
-        plain.__doc__, plain.__name__ = described.__doc__, name
+                name = f"{one.__module__}.{one.__name__}"
+                raise TypeError(f"{name}: its arguments are not {', '.join(wanted)}")
 
         @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
         def _chosen(plan: Any, *args: Any) -> Any:
-            return of_type(plan).py_func
+            return _in_python(of_type(plan))
 
-        return plain  # type: ignore[return-value]
+        return functools.update_wrapper(plain, described)  # type: ignore[return-value]
 
     return declare
 
 
+def _in_python(function: Any) -> Any:
+    return getattr(function, "py_func", function)
+
+
 def _arguments(function: Any) -> tuple[str, ...]:
-    code = getattr(function, "py_func", function).__code__
+    code = _in_python(function).__code__
     return code.co_varnames[: code.co_argcount]  # type: ignore[no-any-return]

@@ -13,11 +13,12 @@ is carried on in place.
 A plan begins with the rig's vector, of which these may vary: so many `numbers`.
 
 To add a flow of one mass, write the kernels that `one_mass.motions` and `one_mass.forces` declare
-in a folder, name them there (`dispatch.by_laws`), and add a class derived from `OneMassFlow` to
-`flow_dispatch`, with its rigs in `_flow`; the functions here follow (`one_mass`). For any other
+in a folder, and name them in those declarations; for laws of a new kind, `dispatch.by_laws` gets an
+argument, and `parameters.laws` a code that it returns. Then add a class derived from `OneMassFlow`
+to `flow_dispatch` and to `ONE_MASS` there; the functions here follow (`one_mass`). For any other
 flow, write a module of these functions with the arguments that are declared here, and enter it in
-`FLOWS` of `flow_tables`, with its class in `SEVERAL_MASSES` and `_flow` of `flow_dispatch`, and its
-choice in `plain` here.
+`FLOWS` of `flow_tables`, with its class in `SEVERAL_MASSES` and `flow_class` of `flow_dispatch`,
+and its choice in `plain` here.
 """
 
 from __future__ import annotations
@@ -320,12 +321,12 @@ def record(
     samples: Vector,
     events: Vector,
 ) -> None:
-    """See `one_mass.record`."""
+    """See `one_mass.record_layout`."""
 
 
 @_function(_RECORDED, types.void, P, P, _N, _N)
 def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
-    """Write a state as one of the samples of `one_mass.record`."""
+    """Write a state as one of the samples of `one_mass.record_layout`."""
 
 
 @_function(_DISTURBED, types.void, P, P)

@@ -15,7 +15,7 @@ from vibroimpact.engine.compiler import cgutils, intrinsic, models, overload, re
 from vibroimpact.engine.flow import OneMass
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
-from vibroimpact.engine.linear.advance import advance_apart
+from vibroimpact.engine.linear.advance import advance_bumpers
 from vibroimpact.engine.linear.any_stops import advance_any
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.memory import pointer
@@ -26,7 +26,7 @@ from vibroimpact.engine.yielding.layout import PLAN as YIELDING_PLAN
 
 
 class Storage(NamedTuple):
-    """Memory for the plan of a rig, whose flow its class is."""
+    """Memory for the plan of a rig; its class is the flow that carries the rig."""
 
     memory: Vector
 
@@ -37,16 +37,16 @@ class OneMassFlow(Storage):
     advance: ClassVar[Callable[..., Any]]
     """The kernel (plan, motion, limit) that goes on to the next event, or for the time `limit`."""
     laws: ClassVar[int] = par.LINEAR
-    """The kernels of `by_laws` that answer for it."""
+    """Which kernels of `by_laws` answer for it."""
     forcing: ClassVar[float | None] = par.HARMONIC
     """The one forcing that it is compiled for. Tables of closed-form motion spend their time in its
     functions; a Taylor step does not notice that they are looked up (None)."""
 
 
-class Apart(OneMassFlow):
+class Bumpers(OneMassFlow):
     """Bumpers that cannot be touched at once, shaken by one sine."""
 
-    advance = advance_apart
+    advance = advance_bumpers
 
 
 class AnyStops(OneMassFlow):
@@ -84,15 +84,19 @@ class Yielding(OneMassFlow):
     laws = par.YIELDING
 
 
-class YieldingSeveral(Yielding):
+class YieldingSeveral(OneMassFlow):
     """The same, shaken by several harmonics."""
 
+    advance = advance_yielding
+    laws = par.YIELDING
     forcing = par.SEVERAL
 
 
-class YieldingRecorded(Yielding):
+class YieldingRecorded(OneMassFlow):
     """The same, shaken by a record."""
 
+    advance = advance_yielding
+    laws = par.YIELDING
     forcing = par.RAMP
 
 
@@ -104,9 +108,8 @@ class CurvedMasses(Storage):
     """Several masses with any links between any stops, under any shaking."""
 
 
-SEVERAL_MASSES = (Masses, CurvedMasses)
-FLOWS: tuple[type[Storage], ...] = (
-    Apart,
+ONE_MASS: tuple[type[OneMassFlow], ...] = (
+    Bumpers,
     AnyStops,
     Several,
     Recorded,
@@ -114,27 +117,32 @@ FLOWS: tuple[type[Storage], ...] = (
     Yielding,
     YieldingSeveral,
     YieldingRecorded,
-    *SEVERAL_MASSES,
 )
-"""Every flow."""
+SEVERAL_MASSES = (Masses, CurvedMasses)
+FLOWS: tuple[type[Storage], ...] = (*ONE_MASS, *SEVERAL_MASSES)
 
 
-def _flow(rig: Vector) -> type[Storage]:
+def flow_class(rig: Vector) -> type[Storage]:
+    """The flow of a rig."""
     if rig[par.FORCING] == par.MASSES:
         return CurvedMasses if rig[assembly.CURVED] else Masses
+    return one_mass_flow(rig)
+
+
+def one_mass_flow(rig: Vector) -> type[OneMassFlow]:
+    """The flow of a rig with one mass."""
     laws, forcing = par.laws(rig), rig[par.FORCING]
-    if laws == par.BENT:
-        return Curved
-    if forcing == par.SEVERAL:
-        return YieldingSeveral if laws == par.YIELDING else Several
-    if forcing == par.RAMP:
-        return YieldingRecorded if laws == par.YIELDING else Recorded
-    if laws == par.YIELDING:
-        return Yielding
     right, left = par.stop_at(0), par.stop_at(1)
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
-    return AnyStops if rigid or overlapping else Apart
+    carries_all = (
+        flow
+        for flow in ONE_MASS
+        if flow.laws == laws
+        and flow.forcing in (None, forcing)
+        and not (flow is Bumpers and (rigid or overlapping))
+    )
+    return next(carries_all)
 
 
 def _aligned_memory(size: int) -> Vector:
@@ -149,19 +157,19 @@ def _aligned_memory(size: int) -> Vector:
 
 def flow_of(rig: Vector) -> Storage:
     """Memory for the plan of a rig, of the class of its flow."""
-    flow = _flow(rig)
-    if flow in SEVERAL_MASSES:
+    if rig[par.FORCING] == par.MASSES:
         memory = _aligned_memory(int(rig[assembly.LENGTH_OF_PLAN]))
         write_plan(rig, memory)
         emitted.prepare(memory, rig)
-        return flow(memory)
+        return flow_class(rig)(memory)
+    flow = one_mass_flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        memory = _aligned_memory(YIELDING_PLAN if issubclass(flow, Yielding) else PLAN)
+        memory = _aligned_memory(YIELDING_PLAN if flow.laws == par.YIELDING else PLAN)
     else:
         weights = rig[par.WEIGHTS :]
         memory = _aligned_memory(several.plan_length(len(weights) // 2))
         memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
-    if issubclass(flow, Curved | Yielding):
+    if flow.laws != par.LINEAR:
         kernels.prepare(memory, rig)
     return flow(memory)
 
@@ -169,7 +177,7 @@ def flow_of(rig: Vector) -> Storage:
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     if par.MASSES in (rig[par.FORCING], other[par.FORCING]):
-        same = bool(rig[par.FORCING] == other[par.FORCING]) and _flow(rig) is _flow(other)
+        same = bool(rig[par.FORCING] == other[par.FORCING]) and flow_class(rig) is flow_class(other)
         # What the laws of a curved one are made of stands in the vector, but needs its room.
         length = assembly.LENGTH_OF_PLAN
         if not same or not rig[assembly.CURVED]:
@@ -179,7 +187,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))
         same = same and bool((kernels.operations(rig) == kernels.operations(other)).all())
-    return bool(same and _flow(rig) in (AnyStops, Curved, _flow(other)))
+    return bool(same and flow_class(rig) in (AnyStops, Curved, flow_class(other)))
 
 
 class PlanType(OneMass):

@@ -6,7 +6,7 @@ already at those after it. So each component of a disturbance jumps by (ẏ⁻ �
 update of rank one: I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻), n the gradient of g (P. C. Müller, Chaos, Solitons &
 Fractals 5 (1995) 1671). An impact besides maps the velocity, u̇⁺ = −r(u̇⁻).
 
-A disturbance is a row of q that begins at a place `at`, see `one_mass.tangent`.
+A disturbance is a row of q that begins at a place `at`, see `one_mass.disturbed_events`.
 """
 
 from __future__ import annotations

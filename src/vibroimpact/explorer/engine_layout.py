@@ -9,8 +9,9 @@ from typing import Any
 
 from vibroimpact.engine import batch, flow, flow_tables, lyapunov, state, steady_response
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flow_dispatch import AnyStops, Apart
+from vibroimpact.engine.flow_dispatch import AnyStops, Bumpers
 from vibroimpact.engine.linear.layout import PLAN
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.one_mass import record_layout
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.engine.status import Status
@@ -23,7 +24,7 @@ _ENTRIES = {
     "batch_trajectory": batch.trajectory,
     "lyapunov_monodromy": lyapunov.monodromy,
 }
-_FLOWS = (Apart, AnyStops)
+_FLOWS = (Bumpers, AnyStops)
 _GROUPS = ("motion", *sorted({group for one in _ENTRIES.values() for group in one.groups[1:]}))
 
 SYMBOLS = frozenset(
@@ -50,8 +51,9 @@ def layout_of_engine() -> dict[str, Any]:
             **_positions(
                 record_layout,
                 "DISPLACEMENT VELOCITY ACCELERATION DEFORMATION TOUCHED "
-                "E_CYCLE E_TIME E_KIND E_STOP E_V DETACHMENT",
+                "E_CYCLE E_TIME E_KIND E_STOP E_V",
             ),
+            **_positions(record, "DETACHMENT"),
         },
         "rig": {
             "size": par.SIZE,

@@ -15,7 +15,7 @@ from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
 from vibroimpact.engine.observers.record import IMPACT, WRITTEN, note_buffer, start_notes
-from vibroimpact.engine.one_mass import record as written
+from vibroimpact.engine.one_mass import record_layout as written
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import copy, state_buffer, width, wind
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
@@ -37,7 +37,7 @@ def rigs(base):
     one = Drive(base=base)
     several, line = Drive(base=base, weights=WEIGHTS), Drive(base=base, interval=3.0)
     of = {
-        "Apart": (BUMPER, BUMPER, one, None),
+        "Bumpers": (BUMPER, BUMPER, one, None),
         "AnyStops": (WALL, BUMPER, one, None),
         "AnyStops, both pressed": (BUMPER, OVERLAPPING, one, None),
         "Several": (BUMPER, BUMPER, several, None),

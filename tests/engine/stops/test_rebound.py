@@ -43,5 +43,5 @@ def test_a_constant_restitution_and_its_gap_are_a_wall() -> None:
 def test_a_law_has_few_numbers_and_a_known_name() -> None:
     with pytest.raises(ValueError, match="at most 4"):
         laws.written(Wall("constant", (0.7, 1.0, 2.0, 3.0, 4.0), 0.1))
-    with pytest.raises(ValueError, match="soft"):
+    with pytest.raises(ValueError, match="'soft' is not a law of rebound; constant"):
         laws.written(Wall("soft", (0.7,), 0.1))

@@ -8,10 +8,10 @@ declared here.
 Only what is neither a sum of harmonics of one frequency (`Periodic`), a constant force nor a
 `Record` needs another one, and only if its clock does not depend on the motion and restarts each
 cycle. It is a file here with these kernels (as `ramp`), named in each declaration below and in
-`by_forcing`; a code beside RAMP in `parameters`, which `rig_vector` writes; a class in
-`flow_dispatch`, which `_flow` there returns; and, unless it is a sum of waves (`wave`), more
-columns of the state row (`linear.layout`). In Python: a class in `model/excitation.py` (periodic:
-of `Repeated`); its `Drive` in `_drive` of `response/engine_input.py`; its free response
+`by_forcing`; a code beside RAMP in `parameters`, which `rig_vector` writes; two classes in
+`flow_dispatch`, of linear laws and of those that yield; and, unless it is a sum of waves (`wave`),
+more columns of the state row (`linear.layout`). In Python: a class in `model/excitation.py`
+(periodic: of `Repeated`); its `Drive` in `_drive` of `response/engine_input.py`; its free response
 (`response/analytic_free_response.py`) and that of several masses (`response/assembly_rig.py`); and
 whatever asks for `isinstance(…, Periodic)`.
 """
@@ -22,7 +22,7 @@ from collections.abc import Callable
 from typing import Any
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import F, replacing
+from vibroimpact.engine.dispatch import F, in_place_of
 from vibroimpact.engine.forcing import harmonic, ramp, several
 from vibroimpact.engine.forcing.wave import Wave
 from vibroimpact.engine.jit import Vector, kernel
@@ -32,14 +32,16 @@ from vibroimpact.engine.linear.layout import Row
 def by_forcing(
     one: Callable[..., Any], many: Callable[..., Any], line: Callable[..., Any]
 ) -> Callable[[F], F]:
-    """Declare a function that calls the kernel of one sine, several harmonics, or a record."""
+    """Declare a function that calls the kernel of one sine, several harmonics, or a record.
+
+    A plan whose type has no forcing counts as one sine.
+    """
     kernels = {par.HARMONIC: one, par.SEVERAL: many, par.RAMP: line}
 
     def plain(plan: Any, *args: Any) -> Any:
         return kernels[plan[par.FORCING]](plan, *args)
 
-    @kernel
-    def looked_up(plan: Any, *args: Any) -> Any:
+    def by_number(plan: Any, *args: Any) -> Any:
         kind = plan[par.FORCING]
         if kind == par.HARMONIC:
             return one(plan, *args)
@@ -49,9 +51,9 @@ def by_forcing(
 
     def of_type(plan: Any) -> Any:
         kind = getattr(plan, "forcing", par.HARMONIC)
-        return looked_up if kind is None else kernels[kind]
+        return by_number if kind is None else kernels[kind]
 
-    return replacing(kernels.values(), plain, of_type)
+    return in_place_of(kernels.values(), plain, of_type)
 
 
 @by_forcing(harmonic.begin, several.begin, ramp.begin)
@@ -125,7 +127,7 @@ def turned_clock(plan: Vector, at: int, s: float, c: float) -> tuple[float, floa
 
 @by_forcing(harmonic.turn, several.turn, ramp.turn)
 def turn(plan: Vector, s: float, c: float, angle: float) -> tuple[float, float]:
-    """The clock a part of a step later."""
+    """The clock a part of a step later; `angle` is what SCALED_W makes of it (a record: a time)."""
 
 
 @by_forcing(harmonic.nudged, several.nudged, ramp.nudged)

@@ -72,7 +72,7 @@ def press(plan: Vector, motion: Motion, stop: int, limit: float) -> Ended:
 
 
 @inlined
-def advance_apart(plan: Vector, motion: Motion, limit: float) -> Ended:
+def advance_bumpers(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next contact or detachment, or for the time `limit` if that comes first."""
     if motion.mode == FLIGHT:
         return fly(plan, motion, limit)

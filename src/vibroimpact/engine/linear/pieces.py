@@ -249,8 +249,8 @@ def sample_stretch(
         The first instant is the time i · step (s), and they are a step apart.
     series, buffer
         Written: the mode's own coordinate and its rate, the absolute acceleration as they are seen,
-        and what the isolator remembers if it does, each in its row of `record.samples`, the first
-        in row 0.
+        and what the isolator remembers if it does, each in its row of
+        `record_layout.samples`, the first in row 0.
     """
     speeds, accelerations = VELOCITY * BLOCK, ACCELERATION * BLOCK
     rate = plan[cursor.table + RATE]

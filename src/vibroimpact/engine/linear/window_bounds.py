@@ -76,7 +76,7 @@ def bound_window(
         The motion at the stretch's start.
     seen
         What was seen before.
-    room
+    buffer
         `chords`, written for `enclosed`.
 
     Returns

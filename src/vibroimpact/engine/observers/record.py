@@ -1,6 +1,6 @@
 """What all flows keep of a motion that is written down: the next sample, and the next event.
 
-Rows of the samples and columns of the events are those of the flow (`one_mass.record`,
+Rows of the samples and columns of the events are those of the flow (`one_mass.record_layout`,
 `assembly.record`).
 """
 

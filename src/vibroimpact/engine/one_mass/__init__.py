@@ -6,7 +6,8 @@ The motion itself is computed by `linear`, `taylor` and `yielding`, with the sto
 they all answer is declared in `forces` and `motions`. Observers that need more than channels are
 here, one file each.
 
-Modules: `forces`, `motions` (what a flow answers), `table` (functions of `engine.flow`), `channels`
-(what is observed), `extremes`, `margin` (distance from grazing), `measure` (phases), `demand` (of
-records), `record` (written down), `tangent` (disturbances).
+Modules: `forces`, `motions`, `advance` (what a flow answers), `table` (functions of `engine.flow`),
+`channels` (what is observed), `extremes`, `margin` (distance from grazing), `measure` (phases),
+`demand` (of records), `record` and `record_layout` (written down), `tangent` and `disturbed_events`
+(disturbances).
 """

@@ -23,12 +23,12 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
 
 @by_laws(forces.isolator_force, mode_forces.isolator_force)
 def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
-    """What the isolator pulls back with, per unit mass."""
+    """What the isolator pulls back with but for friction, per unit mass."""
 
 
 @by_laws(forces.springs, mode_forces.springs)
 def springs(plan: Vector, motion: Motion) -> float:
-    """Its tangent stiffness, per unit mass."""
+    """A bound on the isolator's tangent stiffness, per unit mass; exact where laws are linear."""
 
 
 @by_laws(forces.stop_deformation, mode_forces.stop_deformation)
@@ -58,4 +58,7 @@ def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) ->
 
 @by_laws(forces.rest_level, power.rest_level)
 def rest_level(plan: Vector, motion: Motion, stop: int) -> float:
-    """What presses a resting mass on its rigid stop, but for what shakes it, per unit mass."""
+    """What presses a resting mass on its rigid stop, but for what shakes it, per unit mass.
+
+    Friction holds first.
+    """

@@ -79,6 +79,8 @@ def bound_window(
 ) -> tuple[bool, Enclosed]:
     """Whether the pieces from here on lie within what was seen, as far as that is easily known.
 
+    The cursor is at the first piece of a window.
+
     Returns
     -------
     within, seen
@@ -136,8 +138,8 @@ def sample_stretch(
         The first instant is the time i · step (s), and they are a step apart.
     series, buffer
         Written: the mode's own coordinate and its rate, the absolute acceleration as they are seen,
-        and what the isolator remembers if it does, each in its row of `record.samples`, the first
-        in row 0.
+        and what the isolator remembers if it does, each in its row of
+        `record_layout.samples`, the first in row 0.
     """
 
 
@@ -163,5 +165,6 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
     Returns
     -------
     float
-        The integral of minus the divergence of (u, u̇), impacts included.
+        The integral of minus the divergence of (u, u̇) and of what the isolator remembers, impacts
+        included.
     """

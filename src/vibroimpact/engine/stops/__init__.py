@@ -22,16 +22,16 @@ A new stop is
     `assembly/plan.py`, or for a curved law `assembly/curved/numbers.py`;
   - *at the stop*: a file here (force, losses, what an event there does, where a state is possible;
     examples: `engine/stops/rigid.py`, `engine/stops/rigid_events.py`), with a kind of event in
-    `engine/event.py` if none fits. `advance_any` of `engine/linear/any_stops.py` calls it,
-    `flow_of` in `engine/flow_dispatch.py` selects the flow; `engine/linear/advance.py` stays fast
-    for bumpers;
+    `engine/event.py` if none fits. `advance_any` of `engine/linear/any_stops.py` calls it, and
+    `one_mass_flow` of `engine/flow_dispatch.py` selects the flow; `engine/linear/advance.py` stays
+    fast for bumpers;
   - *disturbances*: the saltation matrix (docs/theory/growth.md, section 6.2), a function of
     `engine/saltation.py` with a test of its own, called from `meet` of
     `engine/one_mass/disturbed_events.py` or `_event` of `engine/taylor/carry.py`, and `contraction`
     of the former. Without it, exponents, orbits and types of motion are wrong
     without an error; compare with differences (`tests/engine/one_mass/test_tangent.py`);
   - *Newton's method*: `place` of `engine/one_mass/table.py` moves an impossible state to the
-    nearest possible one (`placed` of the stop's file);
+    nearest possible one (`nearest_possible` of the stop's file);
   - *results*: events in `engine/one_mass/record.py`, forces and losses in
     `engine/one_mass/measure.py`.
 """

@@ -57,6 +57,8 @@ def written(stop: StopNumbers) -> list[float]:
     wall = stop if isinstance(stop, Wall) else Wall("constant", stop[:1], stop[1])
     if len(wall.numbers) > NUMBERS:
         raise ValueError(f"{len(wall.numbers)} numbers of a wall; at most {NUMBERS} are possible")
+    if wall.law not in LAWS:
+        raise ValueError(f"{wall.law!r} is not a law of rebound; {', '.join(LAWS)} are")
     numbers = [*wall.numbers, *[0.0] * (NUMBERS - len(wall.numbers))]
     return [float(list(LAWS).index(wall.law)), *numbers]
 

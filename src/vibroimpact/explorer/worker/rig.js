@@ -115,7 +115,7 @@ export function engineRig(state, layout) {
     if (stop.damping) vector[block + at.RATE] = stop.stiffness / stop.damping;
   });
   const overlap = rig.right && rig.left && rig.right.gap + rig.left.gap < 0;
-  return { vector, flow: stopsOf(rig).some(rigid) || overlap ? "AnyStops" : "Apart" };
+  return { vector, flow: stopsOf(rig).some(rigid) || overlap ? "AnyStops" : "Bumpers" };
 }
 
 // The displacement of rest that a slow loading reaches.
