@@ -198,6 +198,19 @@ def test_two_friction_links_stick_and_slide():
     np.testing.assert_allclose(at(-5.0), [-0.02, -0.02 - 4.0 / 50.0], rtol=1e-12)
 
 
+@pytest.mark.parametrize("preload", [2.3e-16, 1e-14, 1e-3])
+def test_a_preload_far_below_another_gap_is_balanced(preload):
+    stops = {
+        "far": vi.Link("floor_1", "floor_2", vi.Bumper(1.0, 0.0, 0.25)),
+        "preloaded": vi.Link("floor_2", "floor_1", vi.Bumper(1.0, 0.0, -preload)),
+    }
+    built = vi.chain([1.0] * 3, [1.0] * 3, stops=stops)
+    # The bumper and the storey beside it share the preload.
+    np.testing.assert_allclose(
+        rest(built), [0.0, *2 * [-0.5 * preload]], rtol=1e-3, atol=1e-9 * preload
+    )
+
+
 def test_curved_links_balance_by_their_static_forces():
     links = {
         "bearing": vi.Link(GROUND, "p", vi.BoucWenIsolator(100.0, 10.0, 2.0, 0.5)),

@@ -384,20 +384,25 @@ def _complementary(problem: _Problem, k: Vector, rhs: Vector) -> Vector:
     # Stops that are pressed by one another have no unique forces: a small compliance chooses. Below
     # 1e-9, the cost of what they cannot satisfy hides from `bvls` that another stop is touched.
     scale = np.sqrt(np.diag(a))
-    factor = np.linalg.cholesky(a / np.outer(scale, scale) + 1e-9 * np.eye(len(a)))
-    low, high = problem.low * scale, problem.high * scale
-    fixed = high - low <= 0.0
-    forces = np.zeros(len(a))
-    if not fixed.all():
-        free = ~fixed
-        solved = lsq_linear(
-            factor.T[:, free],
-            np.linalg.solve(factor, q / scale),
-            (low[free], high[free]),
-            method="bvls",
-            tol=1e-15,
-        )
-        forces[free] = solved.x
+    scaled = a / np.outer(scale, scale) + 1e-9 * np.eye(len(a))
+    wanted = q / scale
+    pushed = np.where(problem.low < 0.0, np.abs(wanted), np.maximum(wanted, 0.0))
+    forces, size = np.zeros(len(a)), math.hypot(*pushed)
+    # At the minimum λᵀ A λ ≤ 2 qᵀ λ, so that no depth changes by more than this. `bvls`, which ends
+    # at small changes of the cost, and at an absolute slope, sees no stop that is farther away.
+    farthest = 2.0 * size / math.sqrt(max(float(np.linalg.eigvalsh(scaled)[0]), 1e-10))
+    some = (problem.high > problem.low) & (wanted >= -farthest)
+    if not size > 0.0 or not some.any():
+        return forces
+    factor = np.linalg.cholesky(scaled[np.ix_(some, some)])
+    solved = lsq_linear(
+        factor.T,
+        np.linalg.solve(factor, wanted[some] / size),
+        (problem.low[some] * scale[some] / size, problem.high[some] * scale[some] / size),
+        method="bvls",
+        tol=1e-15,
+    )
+    forces[some] = solved.x * size
     return np.asarray(forces / scale)
 
 
