@@ -38,7 +38,8 @@ def asked(address, **headers):
         with opener.open(request) as answer:
             return answer.status, dict(answer.headers), answer.read()
     except urllib.error.HTTPError as error:
-        return error.code, dict(error.headers), error.read()
+        with error:
+            return error.code, dict(error.headers), error.read()
 
 
 def test_a_page_of_this_server_is_served(served):

@@ -201,7 +201,8 @@ def test_help_shows_the_model_and_not_pydantic(model):
     assert "Parameters" in text
     assert "replace(" in text
     assert "model_dump" not in text
-    assert len(text.split()) < 1000  # Python 3.13 breaks long signatures into lines
+    # Python 3.13 breaks long signatures into lines; 1,002 words on 3.14.
+    assert len(text.split()) < 1050
 
 
 def test_no_pydantic_traceback_hangs_on_the_error():
