@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from operator import attrgetter
 from types import ModuleType
 from typing import Any
 
@@ -66,14 +67,20 @@ def test_a_kernel_with_other_arguments_is_refused() -> None:
 
 
 def _questions(module: ModuleType) -> list:
-    return [one for one in vars(module).values() if hasattr(one, "__wrapped__")]
+    return [
+        one
+        for one in vars(module).values()
+        if inspect.isfunction(one) and hasattr(one, "__wrapped__")
+    ]
 
 
 def _kernels(question) -> Any:
     return inspect.getclosurevars(question).nonlocals["kernels"]
 
 
-@pytest.mark.parametrize("question", [*_questions(forces), *_questions(motions)], ids=str)
+@pytest.mark.parametrize(
+    "question", [*_questions(forces), *_questions(motions)], ids=attrgetter("__name__")
+)
 def test_a_question_of_laws_is_answered_by_its_namesakes(question) -> None:
     kernels = _kernels(question)
     assert {one.__name__ for one in kernels} == {question.__name__}
