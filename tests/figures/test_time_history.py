@@ -76,7 +76,7 @@ def test_band_of_a_contact_that_was_there_from_the_start_or_is_there_at_the_end(
     (band,) = bands(time_history(data)[0])["right contact"]
     assert band[0] == 0.0
     inside = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.58)), 19.7)
-    (name,) = inside["stop"].values[inside["touching"].values[-1]]
+    (name,) = inside["stop"].values[inside["touching"].isel(time=-1)]
     assert bands(time_history(inside)[0])[f"{name} contact"][-1][1] == pytest.approx(19.7)
 
 

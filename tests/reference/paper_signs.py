@@ -28,7 +28,7 @@ def faces(data: xr.Dataset, name: str, side: str) -> NDArray[np.float64]:
     """Deformations of one side with the sign of the displacement."""
     values = data[name]
     if side not in values["stop"].values:
-        return np.zeros(values.shape[:-1])
+        return np.zeros(values.isel(stop=[]).sum("stop").shape)
     return SIGNS[side] * values.sel(stop=side).values + 0.0
 
 

@@ -91,7 +91,10 @@ def test_what_the_dataset_holds() -> None:
         if str(one).startswith("event"):
             np.testing.assert_array_equal(data[one], often[one])
         elif "time" in data[one].dims:
-            np.testing.assert_allclose(data[one][:65], often[one][: 64 * 50 + 1 : 50], atol=1e-13)
+            few, same = slice(65), slice(0, 64 * 50 + 1, 50)
+            np.testing.assert_allclose(
+                data[one].isel(time=few), often[one].isel(time=same), atol=1e-13
+            )
     assert float(data["event_time"].max()) > 1.0
     np.testing.assert_array_equal(data["final_state"], often["final_state"])
 

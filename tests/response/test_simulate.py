@@ -37,7 +37,7 @@ def test_variables_dims_and_units(motion: xr.Dataset) -> None:
         assert motion[name].attrs["units"] == units
     assert motion["stop"].values.tolist() == ["right", "left"]
     for name, units in EVERY_STOP.items():
-        assert motion[name].dims == ("time", "stop")
+        assert motion[name].dims == ("stop", "time")
         assert motion[name].attrs["units"] == units
     assert motion["touching"].dtype == bool
     assert motion["time"].attrs["units"] == "s"
@@ -140,7 +140,7 @@ def test_an_absent_bumper_is_no_stop(tmp_path) -> None:
     assert set(data["event_stop"].values) == {"right"}
     bare = vi.simulate(vi.Rig(rig.without_bumpers(), SHAKEN), 3)
     assert bare.sizes["stop"] == 0
-    assert bare["deformation"].shape == (bare.sizes["time"], 0)
+    assert bare["deformation"].shape == (0, bare.sizes["time"])
     vi.save(bare, tmp_path / "bare.nc")
     xr.testing.assert_identical(vi.load(tmp_path / "bare.nc"), bare)
     assert not [name for name in vi.to_table(bare) if "." in name]

@@ -49,7 +49,8 @@ def test_one_period_closes():
     data = steady("B3-10mm-A3", frequency=0.5, phase=0.7)
     for name in ("displacement", "velocity", "acceleration", "deformation"):
         size = float(np.abs(data[name]).max())
-        assert float(abs(data[name][0] - data[name][-1]).max()) < 1e-10 * size
+        ends = data[name].isel(time=0) - data[name].isel(time=-1)
+        assert float(abs(ends).max()) < 1e-10 * size
     assert float(data["cycle"][-1]) == 1.0
     extremes = float(data["displacement"].max()), float(data["displacement"].min())
     assert float(data["displacement_max"]) >= extremes[0]

@@ -65,7 +65,7 @@ def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
         "touching": mode >> np.arange(record_layout.STOPS, dtype=np.int8) & 1 > 0,
     }
     return samples | {
-        name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
+        name: (("stop", "time"), by_stop(oscillator, values).T) for name, values in by_side.items()
     }
 
 
