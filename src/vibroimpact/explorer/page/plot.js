@@ -12,10 +12,10 @@ const SYMBOL = /(?<!\w)([A-Za-zα-ωΑ-Ω])_([a-z0-9]{1,3})(?!\w)|([δω])(0)(?!
 export function subscripts(text) {
   const parts = [""];
   let end = 0;
-  for (const found of text.matchAll(SYMBOL)) {
-    parts[parts.length - 1] += text.slice(end, found.index) + (found[1] ?? found[3]);
-    parts.push(found[2] ?? found[4], "");
-    end = found.index + found[0].length;
+  for (const match of text.matchAll(SYMBOL)) {
+    parts[parts.length - 1] += text.slice(end, match.index) + (match[1] ?? match[3]);
+    parts.push(match[2] ?? match[4], "");
+    end = match.index + match[0].length;
   }
   parts[parts.length - 1] += text.slice(end);
   return parts;
@@ -55,16 +55,16 @@ export function ticks(low, high, about) {
   const raw = (high - low) / Math.max(about, 1);
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((digit) => digit * power).find((one) => one >= raw * 0.999);
-  const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) found.push(k * step);
-  return found;
+  const values = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) values.push(k * step);
+  return values;
 }
 
 function decades(low, high) {
-  const found = [];
+  const values = [];
   for (let k = Math.floor(Math.log10(low)); 10 ** k <= high * 1.001; k++)
-    for (const digit of high / low > 100 ? [1] : [1, 2, 5]) if (digit * 10 ** k >= low * 0.999 && digit * 10 ** k <= high * 1.001) found.push(digit * 10 ** k);
-  return found;
+    for (const digit of high / low > 100 ? [1] : [1, 2, 5]) if (digit * 10 ** k >= low * 0.999 && digit * 10 ** k <= high * 1.001) values.push(digit * 10 ** k);
+  return values;
 }
 
 export const label = (value) => Number(value.toPrecision(6)).toString();

@@ -32,8 +32,8 @@ class Search {
     if (row[hold.OUTCOME] > 1) return UNDECIDED;
     const period = row[hold.PERIOD];
     const size = reach(this.state, state, this.omega, this.layout);
-    const found = this.known.findIndex((other) => other.period === period && (!period || other.points.some((point) => apart(point, state, this.omega, this.layout) <= SAME * Math.max(size, other.size))));
-    if (found >= 0) return found;
+    const index = this.known.findIndex((other) => other.period === period && (!period || other.points.some((point) => apart(point, state, this.omega, this.layout) <= SAME * Math.max(size, other.size))));
+    if (index >= 0) return index;
     this.known.push(this.motion(state, period, size));
     return this.known.length - 1;
   }

@@ -108,16 +108,16 @@ export class Engine {
     const room = 2 * events + 1;
     const [out, list] = [this.zeros(sample, columns), { at: this.room(room * event), shape: [room, event] }];
     const [vector, here] = [this.vector(rig.vector), this.vector(state)];
-    const found = [];
+    const listed = [];
     let [next, count, outcome] = [0, 0, 0];
     const mark = this.end;
     while (next < cycles && outcome === 0) {
       this.end = mark;
       [next, count, outcome] = this.call("batch_trajectory", rig.flow, vector, amplitude, frequency, phase, here, next, cycles, samples, events, out, list);
-      for (let k = 0; k < count; k++) found.push(this.numbers(list.at + WORD * event * k, event).slice());
+      for (let k = 0; k < count; k++) listed.push(this.numbers(list.at + WORD * event * k, event).slice());
     }
     const rows = Array.from({ length: sample }, (_, k) => this.numbers(out.at + WORD * columns * k, columns).slice());
-    return { rows, events: found, outcome, state: this.numbers(here.at, state.length).slice() };
+    return { rows, events: listed, outcome, state: this.numbers(here.at, state.length).slice() };
   }
 
   // Derivative of the state after some cycles by the state now, row by row; null if it is given up.

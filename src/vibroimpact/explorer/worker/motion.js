@@ -20,7 +20,7 @@ function drawn(state, made, frequency, count, samples, facts, layout) {
   const push = movesBase(of) ? 0 : state.amplitude * (of === "unbalance" ? omega ** 2 : 1);
   const force = Array.from(acceleration, (a, k) => push * Math.sin((2 * Math.PI * (k % samples)) / samples) + rig.force - rig.mass * a);
   const [, size, symbol] = fitting(force, facts.quantities.force);
-  const found = {
+  const drawing = {
     picture: "motion",
     direction: state.direction,
     frequency: one(frequency, 7),
@@ -36,11 +36,11 @@ function drawn(state, made, frequency, count, samples, facts, layout) {
   };
   for (const [number, side] of SIDES.entries()) {
     const stop = rig[side];
-    found.gaps[side] = stop ? one(1e3 * SIGN[side] * stop.gap) : null;
-    found[side] = stop ? short(rows[at.DEFORMATION + number].map((depth) => 1e3 * SIGN[side] * (stop.gap + depth))) : null;
-    if (stop) found.touching[side] = Array.from(rows[at.TOUCHED], (mode) => (mode >> number) & 1);
+    drawing.gaps[side] = stop ? one(1e3 * SIGN[side] * stop.gap) : null;
+    drawing[side] = stop ? short(rows[at.DEFORMATION + number].map((depth) => 1e3 * SIGN[side] * (stop.gap + depth))) : null;
+    if (stop) drawing.touching[side] = Array.from(rows[at.TOUCHED], (mode) => (mode >> number) & 1);
   }
-  return found;
+  return drawing;
 }
 
 // The motion at the end of a hold of the sweep, while a knob is turned.
@@ -117,7 +117,7 @@ function spectrum(values, cycles, periodic, frequency, highest) {
   const mean = values.slice(0, count).reduce((sum, x) => sum + x, 0) / count;
   const weighted = weights.map((weight, k) => weight * (values[k] - mean));
   const [cosines, sines] = [Math.cos, Math.sin].map((f) => Float64Array.from({ length: count }, (_, k) => f((2 * Math.PI * k) / count)));
-  const found = { frequency: [], displacement: [] };
+  const lines = { frequency: [], displacement: [] };
   for (let n = 1; n <= highest * cycles + 1e-9; n++) {
     let [real, imaginary, place] = [0, 0, 0];
     for (let k = 0; k < count; k++) {
@@ -125,10 +125,10 @@ function spectrum(values, cycles, periodic, frequency, highest) {
       imaginary += weighted[k] * sines[place];
       place = (place + n) % count;
     }
-    found.frequency.push(one((n / cycles) * frequency));
-    found.displacement.push(one((2e3 * Math.hypot(real, imaginary)) / total));
+    lines.frequency.push(one((n / cycles) * frequency));
+    lines.displacement.push(one((2e3 * Math.hypot(real, imaginary)) / total));
   }
-  return found;
+  return lines;
 }
 
 // The motion that the selected one settles on, classified, with its spectrum and its impacts.

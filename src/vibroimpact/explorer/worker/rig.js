@@ -38,7 +38,7 @@ export function largestFlight(omega, xi, amplitude) {
 export function freeFlight(state, frequencies) {
   const { oscillator: rig, of } = state;
   const [omega0, xi] = [omegaOf(rig), dampingRatio(rig)];
-  const found = { swing: [], acceleration: [], carried: [], exciting: [] };
+  const excursions = { swing: [], acceleration: [], carried: [], exciting: [] };
   for (const frequency of frequencies) {
     const omega = 2 * Math.PI * frequency;
     const size = 2 * accelerationAt(state, omega);
@@ -47,12 +47,12 @@ export function freeFlight(state, frequencies) {
     const gain = size / Math.hypot((1 - ratio) * (1 + ratio), damping);
     const swing = gain / omega0 ** 2;
     const acceleration = gain * (movesBase(of) ? Math.sqrt(1 + damping ** 2) : ratio ** 2);
-    found.swing.push(swing);
-    found.acceleration.push(acceleration);
-    found.carried.push(movesBase(of) ? acceleration : Math.hypot(rig.isolator.stiffness / rig.mass, (rig.isolator.damping / rig.mass) * omega) * swing);
-    found.exciting.push(size);
+    excursions.swing.push(swing);
+    excursions.acceleration.push(acceleration);
+    excursions.carried.push(movesBase(of) ? acceleration : Math.hypot(rig.isolator.stiffness / rig.mass, (rig.isolator.damping / rig.mass) * omega) * swing);
+    excursions.exciting.push(size);
   }
-  return found;
+  return excursions;
 }
 
 // The excursions over which η is taken.
@@ -283,9 +283,9 @@ export function joined(state, together) {
 export function chosen(state, direction, frequency, facts) {
   if (direction !== "forward" && direction !== "backward") throw new Refused(`direction: '${direction}' is unknown; use 'forward' or 'backward'`);
   const accepts = { quantity: "frequency", above: 0, accepted: facts.frequency };
-  const given = read(frequency, accepts, facts.quantities, "frequency", facts.limits);
+  const wanted = read(frequency, accepts, facts.quantities, "frequency", facts.limits);
   // The page has frequencies with some digits only, also those of both ends.
-  const hertz = state.span.find((end) => Math.abs(given - end) <= facts.limits.rounded * Math.max(given, end)) ?? given;
+  const hertz = state.span.find((end) => Math.abs(wanted - end) <= facts.limits.rounded * Math.max(wanted, end)) ?? wanted;
   const [low, high] = state.span;
   if (!(hertz >= low && hertz <= high)) throw new Refused(`frequency: ${plain(hertz)} Hz is outside the range of the sweeps; use a frequency from ${plain(low)} to ${plain(high)} Hz`, "frequency");
   return { ...state, direction, frequency: hertz };
@@ -297,11 +297,11 @@ export function controls(state, first, facts) {
   const [old, { knobs, quantities }] = [first.oscillator, facts];
   const [u, k] = [freeDisplacement(state), rig.isolator.stiffness];
   const sizes = { force: k * u, length: 1.2 * u, damping: Math.sqrt(k * rig.mass) };
-  const found = [];
+  const list = [];
   const add = (path, group, label, value, quantity, [low, high, log], symbol) => {
     const [, name] = path.includes(".") ? path.split(".") : ["", path];
     const own = knobs.symbols[path];
-    found.push({
+    list.push({
       path,
       group,
       label,
@@ -348,7 +348,7 @@ export function controls(state, first, facts) {
       if (value !== null) add(`${side}.${name}`, "dimensionless", both ? words : `${words}, ${side}`, value, facts.ratios[name].quantity, knobs.ranges[name]);
     }
   }
-  if (found.some((knob) => !Number.isFinite(knob.value) || !Number.isFinite(knob.high - knob.low) || (knob.log && !(knob.low > 0))))
+  if (list.some((knob) => !Number.isFinite(knob.value) || !Number.isFinite(knob.high - knob.low) || (knob.log && !(knob.low > 0))))
     throw new Refused("value: with this value, some numbers of the rig are not finite; choose a less extreme value");
-  return found;
+  return list;
 }

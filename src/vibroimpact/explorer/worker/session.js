@@ -35,10 +35,10 @@ export class Session {
   take(message) {
     const { n = null, path = null } = message;
     const before = { first: this.first, now: this.now, past: this.past, future: this.future, gesture: this.gesture };
-    let told;
+    let answer;
     try {
       this.do(message);
-      told = this.told();
+      answer = this.told();
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       Object.assign(this, before);
@@ -49,7 +49,7 @@ export class Session {
     this.dragging = message.dragging === true;
     this.number = n;
     if (!this.now.shown.includes("basins")) delete this.sent.basins;
-    return { ...told, n };
+    return { ...answer, n };
   }
 
   to(state, gesture = "") {

@@ -33,7 +33,7 @@ export async function swept(engine, state, fine, facts, pause) {
   const options = fine ? {} : { cycles: patience, window };
   const rig = engineRig(state, layout);
   const begin = engineState(state.oscillator, equilibrium(state.oscillator), 0, layout);
-  const found = { frequencies, rig };
+  const sweeps = { frequencies, rig };
   for (const direction of DIRECTIONS) {
     const [rows, states] = [[], []];
     let here = begin;
@@ -46,19 +46,19 @@ export async function swept(engine, state, fine, facts, pause) {
       await pause(done, 2 * frequencies.length);
     }
     if (direction === "backward") for (const list of [rows, states]) list.reverse();
-    found[direction] = { rows, states };
+    sweeps[direction] = { rows, states };
   }
-  return found;
+  return sweeps;
 }
 
 function runs(flags, split) {
-  const found = [];
+  const ranges = [];
   flags.forEach((yes, k) => {
     if (!yes) return;
-    if (k && flags[k - 1] && !split?.[k - 1]) found.at(-1)[1] = k;
-    else found.push([k, k]);
+    if (k && flags[k - 1] && !split?.[k - 1]) ranges.at(-1)[1] = k;
+    else ranges.push([k, k]);
   });
-  return found;
+  return ranges;
 }
 
 // Ranges in which the directions follow different motions; see `response.resonance.hysteresis`.
@@ -78,7 +78,7 @@ function hysteresis(frequency, a, d, settled, { apart, unsettled_apart }) {
 
 // Steps far steeper than both neighbours; see `response.resonance._breaks`.
 function breaks(frequency, curves, settled, { apart, unsettled_apart, step }) {
-  const found = new Map();
+  const places = new Map();
   for (const [by, curve] of curves.entries()) {
     const known = curve.map((_, k) => k).filter((k) => Number.isFinite(curve[k]));
     if (known.length < 4) continue;
@@ -90,10 +90,10 @@ function breaks(frequency, curves, settled, { apart, unsettled_apart, step }) {
       const least = settled[before] && settled[after] ? apart : unsettled_apart;
       if (Math.abs(one - other) / Math.max(Math.abs(one), Math.abs(other)) <= least) continue;
       const place = `${before},${after}`;
-      if (!found.has(place)) found.set(place, [before, after, by]);
+      if (!places.has(place)) places.set(place, [before, after, by]);
     }
   }
-  return found;
+  return places;
 }
 
 function jumps(frequency, a, d, settled, apart, limits) {

@@ -25,15 +25,15 @@ export function read(value, accepts, quantities, path, limits) {
   if (typeof value === "string") {
     const text = value.replaceAll("−", "-").replace(/\s+/g, " ").trim();
     if (!text) refuse("is empty");
-    const found = NUMBER.exec(text);
-    if (!found) refuse("does not start with a number");
-    const unit = normal(text.slice(found[0].length));
+    const leading = NUMBER.exec(text);
+    if (!leading) refuse("does not start with a number");
+    const unit = normal(text.slice(leading[0].length));
     if (unit.startsWith(",")) refuse("has a comma; write a decimal point");
     const size = unit ? quantities[accepts.quantity].units[unit] : 1;
     if (size === undefined) refuse(`has a unit, '${unit}', that is unknown here or of another quantity`);
     // As a decimal number: a product of 7.5 and 0.001 would be rounded twice.
     const exponent = Math.log10(size);
-    number = Number.isInteger(exponent) && !/e/i.test(found[0]) ? Number(`${found[0]}e${exponent}`) : Number(found[0]) * size;
+    number = Number.isInteger(exponent) && !/e/i.test(leading[0]) ? Number(`${leading[0]}e${exponent}`) : Number(leading[0]) * size;
   }
   if (typeof number !== "number" || Number.isNaN(number)) refuse("is not a number");
   if (!Number.isFinite(number)) refuse("is not finite");
