@@ -13,7 +13,7 @@ from typing import Annotated, Any, TypeAlias
 
 from vibroimpact.arguments import check_path, check_text
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.quantities import DIMENSIONLESS, TIME
+from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity
 from vibroimpact.model.units import to_si
 
 LARGEST = 2**62
@@ -87,59 +87,15 @@ def share(value: object, field: str) -> float:
     return number
 
 
-def fractile(value: object, field: str) -> float:
-    """Return a number from 0 to 1.
+def number(value: object, field: str, quantity: Quantity, **bounds: float) -> float:
+    """Return a number in SI units, within the bounds of `to_si`.
 
     Raises
     ------
     InputError
         If the value is not such a number.
     """
-    return to_si(value, DIMENSIONLESS, field, minimum=0.0, maximum=1.0)
-
-
-def tail(value: object, field: str) -> float:
-    """Return a duration of free vibration in s.
-
-    Raises
-    ------
-    InputError
-        If the value is not a time of at least 0.
-    """
-    return to_si(value, TIME, field, minimum=0.0, maximum=MOST_TAIL)
-
-
-def positive(value: object, field: str) -> float:
-    """Return a number that is greater than 0.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
-    return to_si(value, DIMENSIONLESS, field, above=0.0)
-
-
-def non_negative(value: object, field: str) -> float:
-    """Return a number that is at least 0.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
-    return to_si(value, DIMENSIONLESS, field, minimum=0.0)
-
-
-def seconds(value: object, field: str) -> float:
-    """Return a time in s.
-
-    Raises
-    ------
-    InputError
-        If the value is not a time of at least 0.
-    """
-    return to_si(value, TIME, field, minimum=0.0)
+    return to_si(value, quantity, field, **bounds)
 
 
 def function_of(value: object, field: str, what: str) -> Any:
@@ -169,14 +125,18 @@ Refinements: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_REFINE
 """Number of times that a grid is refined."""
 Share: TypeAlias = Annotated[float, share]
 """A number between 0 and 1."""
-Positive: TypeAlias = Annotated[float, positive]
-NonNegative: TypeAlias = Annotated[float, non_negative]
-Seconds: TypeAlias = Annotated[float, seconds]
+Positive: TypeAlias = Annotated[float, partial(number, quantity=DIMENSIONLESS, above=0.0)]
+NonNegative: TypeAlias = Annotated[float, partial(number, quantity=DIMENSIONLESS, minimum=0.0)]
+Seconds: TypeAlias = Annotated[float, partial(number, quantity=TIME, minimum=0.0)]
 """A time in s, at least 0."""
 String: TypeAlias = Annotated[str, check_text]
 File: TypeAlias = Annotated[Path | str, check_path]
 """Path of a file."""
-Fractile: TypeAlias = Annotated[float, fractile]
+Fractile: TypeAlias = Annotated[
+    float, partial(number, quantity=DIMENSIONLESS, minimum=0.0, maximum=1.0)
+]
 """A number from 0 to 1."""
-Tail: TypeAlias = Annotated[float | str, tail]
+Tail: TypeAlias = Annotated[
+    float | str, partial(number, quantity=TIME, minimum=0.0, maximum=MOST_TAIL)
+]
 """Duration of free vibration after a record, in s or with a unit."""
