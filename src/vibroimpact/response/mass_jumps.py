@@ -53,7 +53,7 @@ class MassSteps(NamedTuple):
 
 
 def mass_steps(data: xr.Dataset) -> MassSteps:
-    """Find what `resonance.jumps` finds in the largest values of each mass.
+    """Find what `resonance.jumps_beside` finds in the largest values of each mass.
 
     Parameters
     ----------
