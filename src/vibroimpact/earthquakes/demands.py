@@ -156,7 +156,7 @@ def demands(
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
     shaking = suite(records)
-    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales}, any_masses=True)
+    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales})
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)

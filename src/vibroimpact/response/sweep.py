@@ -31,7 +31,7 @@ from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
-from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
+from vibroimpact.model.read_rig import AnyRig, as_rigs
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import check_alike
 from vibroimpact.response.engine_system import engine_system
@@ -191,7 +191,7 @@ def sweeps(
     InputError
         If a value is invalid.
     """
-    named = periodic_rigs(rigs, any_masses=True)
+    named = periodic_rigs(rigs)
     systems = {name: rig.system for name, rig in named.items()}
     if any(one.by_mass for one in systems.values()):
         check_alike(systems, "rigs", "mass", "stop")
@@ -259,17 +259,15 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return read_rising(frequencies, FREQUENCY, "frequencies", above=0.0)
 
 
-def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:
+def periodic_rigs(rigs: Any) -> dict[str, Rig]:
     """Read one or several rigs, each with a periodic shaking, by their names.
-
-    ``any_masses`` accepts assemblies.
 
     Raises
     ------
     InputError
         If there is none, or one is invalid.
     """
-    named_rigs = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
+    named_rigs = as_rigs(rigs)
     for name, rig in named_rigs.items():
         as_periodic(rig.shaking, "shaking" if len(named_rigs) == 1 else f"rigs[{name}].shaking")
     return named_rigs

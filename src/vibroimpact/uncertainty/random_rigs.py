@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import rig_parameters, system_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated
 from vibroimpact.model.parameters import Parameter, parameter, set_values
-from vibroimpact.model.read_rig import RigOrSystem, one_system
+from vibroimpact.model.read_rig import RigOrSystem, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.system import System
 from vibroimpact.model.written_units import as_first_argument
@@ -112,7 +112,7 @@ def uncertain(rig: RigOrSystem, distributions: Any) -> Uncertain:
         If a distribution is invalid, or the rig has no such parameter.
     """
     alone = isinstance(rig, System)
-    base = one_system(rig)
+    base = as_rig_of_any_masses(rig, oscillator_alone=True)
     return _read(base, None if alone else base.periodic, distributions)
 
 
