@@ -285,7 +285,7 @@ def _dataset(
         "saddle_velocity": ("saddle", np.array([one.point[1] for one in saddles])),
         "saddle_period": (
             "saddle",
-            np.array([one.orbit.section.period for one in saddles], dtype=np.int64),
+            np.array([one.orbit.section.count for one in saddles], dtype=np.int64),
         ),
         "multiplier_growing": ("saddle", np.array([one.growing for one in saddles])),
         "multiplier_dying": ("saddle", np.array([one.dying for one in saddles])),

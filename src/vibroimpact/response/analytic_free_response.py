@@ -95,6 +95,12 @@ def exciting_excursion(rig: Rig, frequencies: _Array) -> _Array:
     return np.asarray(wave * (omega**2 if shaken.grows_with_frequency else np.ones_like(omega)))
 
 
+def exciting_force(rig: Rig) -> float:
+    """Excursion of the exciting force (N)."""
+    frequency = np.array([rig.periodic.frequency])
+    return rig.oscillator.mass * float(exciting_excursion(rig, frequency)[0])
+
+
 def reference_excursions(rig: Rig) -> tuple[float, float]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) that η is taken over.
 

@@ -91,13 +91,6 @@ def approach(
     )
 
 
-def later(
-    motion: Settled, state: _Array, cycles: float, max_events: int = 10_000
-) -> tuple[Status, _Array]:
-    """The state some forcing cycles later; of use only if `Status.DONE`."""
-    return motion.engine.propagate(state, cycles, max_events)
-
-
 def section_sizes(engine: PreparedRig) -> _Array:
     """Return what the parts of a section are divided by: velocities by ω, to be displacements."""
     size = np.ones(engine.states.parts)
@@ -133,4 +126,4 @@ def reach_at_rest(rig: Rig) -> float:
 
 def settled_on(orbit: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    return Settled(prepare(orbit.rig), vector_of(orbit), orbit.section.period, 0, Status.DONE)
+    return Settled(prepare(orbit.rig), vector_of(orbit), orbit.section.count, 0, Status.DONE)
