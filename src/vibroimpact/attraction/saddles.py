@@ -61,10 +61,7 @@ class Saddle(NamedTuple):
 def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     """The points of a saddle orbit, a cycle apart.
 
-    Raises
-    ------
-    InputError
-        If it is not a saddle; the message begins with `where`.
+    If the orbit is not a saddle, an error is raised whose message begins with `where`.
     """
     full = orbit.section.with_map(orbit.section.count, mirror=False)
     one = full.with_map(1, mirror=False)
@@ -90,10 +87,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
 def check_flies(stage: Stage, orbit: Orbit) -> None:
     """Check that no point of an orbit has more to it than the plane shows.
 
-    Raises
-    ------
-    InputError
-        If one presses a stop whose force depends on the speed at which it was met.
+    It must not press a stop whose force depends on the speed at which it was met.
     """
     one = orbit.section.with_map(1, mirror=False)
     point = orbit.point

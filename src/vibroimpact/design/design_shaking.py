@@ -236,13 +236,7 @@ def split_frequency(vary: object) -> tuple[Any, object]:
 
 
 def read_frequencies(frequencies: object) -> tuple[float, float] | tuple[None, None]:
-    """Read the lowest and the highest frequency (Hz); None for 0 and infinity.
-
-    Raises
-    ------
-    InputError
-        If they are no such pair.
-    """
+    """Read the lowest and the highest frequency (Hz); None for 0 and infinity."""
     if frequencies is None:
         return None, None
     return read_span(frequencies, FREQUENCY, field_of("frequency"), "frequency", above=0.0)

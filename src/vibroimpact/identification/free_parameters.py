@@ -86,8 +86,6 @@ def frees(
     free
         Names, as a list or a string with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
-    rigs
-        The rig and shaking of each test.
     each
         Names of parameters that are fitted separately per test, as a list or a string with commas.
     priors
@@ -250,14 +248,8 @@ def _parameter(name: str, rig: Rig) -> Parameter:
 def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
     """The size of a kind of number, from the rig's mass, its frequency and how far it swings.
 
-    Parameters
-    ----------
-    quantity
-        What it is; of its dimensions is the size.
-    rig
-        The rig, shaken as in the test.
-    swing
-        Measured displacement (m), where it is known: the base of a free vibration is at rest.
+    `swing` is the measured displacement (m), where it is known: the base of a free vibration is at
+    rest.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     omega = oscillator.angular_frequency or shaken.angular_frequency

@@ -47,12 +47,7 @@ _STEPS = 30
 def noises(problem: Problem, x: Array, said: Sequence[bool]) -> list[float]:
     """The standard deviation of each test's points, from what the fit leaves.
 
-    Parameters
-    ----------
-    problem, x
-        The fit.
-    said
-        Of which tests it is known beforehand.
+    `said` states which are known beforehand.
     """
     plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
     residuals = plain.values(x).residuals

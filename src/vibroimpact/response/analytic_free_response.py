@@ -65,10 +65,7 @@ def free_transmitted_excursion(
     K u + C u̇ has the amplitude √(K² + C²ω²) X. If the base moves, it is M times the absolute
     acceleration.
 
-    Parameters
-    ----------
-    swing, acceleration
-        Excursions of `free_flight_excursions`.
+    `swing` and `acceleration` are the excursions of `free_flight_excursions`.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     if shaken.moves_base:

@@ -53,13 +53,7 @@ class MassSteps(NamedTuple):
 
 
 def mass_steps(data: xr.Dataset) -> MassSteps:
-    """Find what `resonance.jumps_beside` finds in the largest values of each mass.
-
-    Parameters
-    ----------
-    data
-        Dataset of a sweep of an assembly.
-    """
+    """Find what `resonance.jumps_beside` finds in the largest values of each mass."""
     known: tuple[Direction, ...] = ("forward", "backward")
     directions = tuple(one for one in known if one in data["direction"].values)
     swept = data.sel(direction=list(directions)).transpose("direction", "frequency", ...)

@@ -84,12 +84,7 @@ def logarithmic(values: _Array) -> bool:
 def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[Axis, Axis]:
     """Read the axes x and y of a map: parameters and values, and spacings that are not clear.
 
-    `of` is the quantity of amplitudes.
-
-    Raises
-    ------
-    InputError
-        If there are not two parameters that go together, or if a value or a spacing is invalid.
+    `of` is the quantity of amplitudes. The two parameters must go together.
     """
     grids = entries(vary, 2, 2)
     names = [_name(name, "vary") for name in grids]
@@ -140,13 +135,7 @@ def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) ->
 
 
 def check_pair(x: Axis, y: Axis) -> None:
-    """Refuse two axes of one quantity.
-
-    Raises
-    ------
-    InputError
-        If they do not go together.
-    """
+    """Refuse two axes of one quantity."""
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
             f"vary: {y.name!r} varies the same quantity as {x.name!r}; choose another parameter "
@@ -157,10 +146,7 @@ def check_pair(x: Axis, y: Axis) -> None:
 def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     """Check that one sine shakes a rig; its frequency is left open.
 
-    Raises
-    ------
-    InputError
-        If it is not one sine, or the mass has no spring.
+    The mass must have a spring.
     """
     oscillator = rig.oscillator
     shaken, _ = as_periodic(rig.shaking, where)

@@ -50,8 +50,6 @@ def jump_border(
 
     Parameters
     ----------
-    data
-        Dataset of `scenario_map`.
     lines
         At how many values of the other parameter, at most, the border is sought.
     threads
@@ -59,19 +57,12 @@ def jump_border(
         same for any number.
     where
         As for `scenario_map`; None for what that takes by itself for such a map.
-    progress
-        Called from the calling thread with the folds followed and their number.
 
     Returns
     -------
     xarray.Dataset
         Dim ``border_point``: the map's two parameters at each point, which is exact to the
         tolerance of the continuation. It has no points where the map shows no such border.
-
-    Raises
-    ------
-    InputError
-        If it is not a map, or ``where`` is invalid.
     """
     if data.attrs.get("created_by") != CREATED_BY:
         raise InputError("data: this is not a map; pass the result of scenario_map")

@@ -145,10 +145,7 @@ class Evidence(NamedTuple):
     def extent(self, prominence: float) -> float:
         """Width of all left hystereses and non-regular resonances together, over f0.
 
-        Parameters
-        ----------
-        prominence
-            Least prominence of a non-regular resonance, as a share of its height.
+        `prominence` is the least of a non-regular resonance, as a share of its height.
         """
         spans = [item.ends for item in self.left]
         spans += [
@@ -167,12 +164,10 @@ class Evidence(NamedTuple):
 def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
     """What the sweep of one rig shows.
 
+    `data` is the dataset of its sweep in both directions.
+
     Parameters
     ----------
-    oscillator, shaken
-        The rig and what shakes it, at whatever frequency.
-    data
-        Dataset of its sweep in both directions.
     prominence
         Least prominence of peaks that are kept, as a share of their height.
 

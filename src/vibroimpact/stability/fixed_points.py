@@ -221,12 +221,6 @@ def corrected(
 
     Parameters
     ----------
-    section
-        Whose fixed point is sought.
-    point
-        Where to begin.
-    mode
-        Phase at the section, as the engine counts.
     normal
         Normal of the plane, scaled; of its components only those in `Section.seen` count. Default:
         the plane on which the parameter is held.

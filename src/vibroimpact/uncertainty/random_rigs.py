@@ -166,10 +166,7 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
 def check_power(number: int, field: str, what: str) -> None:
     """Raise an error unless a number is a power of 2.
 
-    Raises
-    ------
-    InputError
-        If it is not; the message suggests the next power of 2.
+    The message suggests the next power of 2.
     """
     if number & (number - 1):
         following = 1 << number.bit_length()
