@@ -26,8 +26,6 @@ def curves(
 
     Parameters
     ----------
-    table, known
-        The table that was read from the file, and the meanings of its columns.
     direction
         Direction of all rows, if the file does not state it.
     notes

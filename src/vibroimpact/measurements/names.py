@@ -294,13 +294,7 @@ def size_of(unit: str, quantity: Quantity) -> float | None:
 
 
 def direction_of(word: object, path: str, where: str) -> Direction:
-    """Read the direction of a sweep, which is a word, 1 or −1.
-
-    Raises
-    ------
-    InputError
-        If it is none of these.
-    """
+    """Read the direction of a sweep, which is a word, 1 or −1."""
     text = plain(str(word).lower())
     if text in _FORWARD | {"f", "1", "1.0", "+1"}:
         return "forward"

@@ -24,13 +24,7 @@ MOST_SAMPLES = 20_000_000
 
 
 def check_samples(cycles: float, samples: int, field: str, what: str = "cycles") -> None:
-    """Raise an error if a time history has more samples than fit in the memory.
-
-    Raises
-    ------
-    InputError
-        If there are more than `MOST_SAMPLES` samples in total.
-    """
+    """Raise an error if a time history has more samples than fit in the memory."""
     if cycles * samples > MOST_SAMPLES:
         raise InputError(
             f"{field}: {cycles:g} {what} of {samples} samples are too many; reduce {field}, so "
@@ -61,10 +55,7 @@ MOST_STARTS = 1_000_000
 def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int:
     """Return a whole number, which may be an integer of numpy.
 
-    Raises
-    ------
-    InputError
-        If the value is not a whole number, or if it is less than `least` or greater than `most`.
+    It must be from `least` to `most`.
     """
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not is_whole or not least <= int(value) <= most:  # type: ignore[call-overload]
@@ -74,13 +65,7 @@ def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int
 
 
 def share(value: object, field: str) -> float:
-    """Return a number that is greater than 0 and less than 1.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
+    """Return a number that is greater than 0 and less than 1."""
     number = to_si(value, DIMENSIONLESS, field, above=0.0)
     if not number < 1.0:
         raise InputError(f"{field}: {shown(value)}; pass a number between 0 and 1")
@@ -88,24 +73,12 @@ def share(value: object, field: str) -> float:
 
 
 def number(value: object, field: str, quantity: Quantity, **bounds: float) -> float:
-    """Return a number in SI units, within the bounds of `to_si`.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
+    """Return a number in SI units, within the bounds of `to_si`."""
     return to_si(value, quantity, field, **bounds)
 
 
 def function_of(value: object, field: str, what: str) -> Any:
-    """Return a function. `what` describes accepted functions.
-
-    Raises
-    ------
-    InputError
-        If the value cannot be called.
-    """
+    """Return a function. `what` describes accepted functions."""
     if isinstance(value, type) or not callable(value):
         raise InputError(f"{field}: {shown(value)}; pass {what}")
     return value

@@ -65,10 +65,7 @@ def _fields(law: Model) -> dict[str, float]:
 def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
     """Return the numbers of the stops that have a number of this name, by side.
 
-    Raises
-    ------
-    InputError
-        If no stop has it.
+    At least one stop must have it.
     """
     by_side = {}
     for side in ("right", "left"):
@@ -97,10 +94,7 @@ def _common(oscillator: Oscillator, name: str) -> float:
 def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]]:
     """Return stiffness and damping of the bumpers, by side.
 
-    Raises
-    ------
-    InputError
-        If there is none, or if another law has a stiffness.
+    A stop of another law must not have a stiffness.
     """
     by_side = {}
     for side in _numbers(oscillator, "stiffness"):

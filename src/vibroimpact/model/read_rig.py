@@ -73,13 +73,7 @@ RigOrSystem: TypeAlias = AnyRig | Oscillator | Assembly
 
 
 def as_assembly(value: Any, where: str = "rig") -> Assembly:
-    """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
-
-    Raises
-    ------
-    InputError
-        If the value is not a rig, if the study file is invalid, or if the rig has an oscillator.
-    """
+    """Return the assembly that an argument describes: an `Assembly`, or a rig with one."""
     return several_masses_only(_read(value, where, oscillator_alone=True).system, where)
 
 
