@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, advised, shown
 from vibroimpact.model.parameters import (
-    Parameter,
     canonical,
     parameter,
     parameters,
@@ -158,7 +157,7 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
     if name in SENSORS:
         quantity, now = SENSORS[name]
     else:
-        of = _parameter(name, rig)
+        of = parameter(name, rig, "free")
         quantity, least, most = of.quantity, of.least, of.most
         above = None if of.zero or least != 0.0 else 0.0
         now = of.read(rig)
@@ -239,10 +238,6 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
     mean, deviation = pair
     size = to_si(deviation, quantity, f"{field}[1]", above=0.0)
     return to_si(mean, quantity, f"{field}[0]"), size
-
-
-def _parameter(name: str, rig: Rig) -> Parameter:
-    return parameter(name, rig, "free")
 
 
 def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:

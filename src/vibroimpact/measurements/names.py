@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,9 +20,8 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
+from vibroimpact.response.curve_pair import Direction
 from vibroimpact.tables.units import ending, plain, spelled, time_unit, words_of
-
-Direction = Literal["forward", "backward"]
 
 CURVES: dict[str, Quantity] = {
     "displacement_excursion": LENGTH,

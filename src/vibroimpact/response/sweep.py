@@ -34,6 +34,7 @@ from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rigs
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import check_alike
+from vibroimpact.response.curve_pair import DIRECTIONS
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, read_outputs
@@ -43,8 +44,6 @@ from vibroimpact.response.sweep_dataset import sweep_dataset
 from vibroimpact.response.sweep_outputs import add_sweep_outputs
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, each
-
-DIRECTIONS = ("forward", "backward")
 
 
 @public

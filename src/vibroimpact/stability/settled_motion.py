@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
-from vibroimpact.model import AssemblyState, Oscillator, Repeated, State
+from vibroimpact.model import AssemblyState, Repeated, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.hold_rows import Settling
@@ -41,11 +41,6 @@ class Settled(NamedTuple):
     def states(self) -> EngineSystem:
         """How states stand in vectors."""
         return self.engine.states
-
-    @property
-    def oscillator(self) -> Oscillator:
-        """What vibrates."""
-        return self.rig.oscillator
 
     @property
     def excitation(self) -> Repeated:

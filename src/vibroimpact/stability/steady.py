@@ -253,7 +253,9 @@ def _measured(data: xr.Dataset, motion: Settled, scalars: dict[str, Any]) -> xr.
     if motion.states.system.by_mass:
         return _measured_by_mass(data, motion, scalars)
     periodic = scalars["period"] > 0
-    origin = Origin(motion.oscillator, motion.excitation, float(data["cycle"].values[-1]), periodic)
+    origin = Origin(
+        motion.rig.oscillator, motion.excitation, float(data["cycle"].values[-1]), periodic
+    )
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)

@@ -154,7 +154,7 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
         If the count is not a power of 2 for Sobol's points.
     """
     if method == "sobol":
-        check_power(count, "draws", "Sobol's points")
+        check_power(count)
         points: _Array = scipy.stats.qmc.Sobol(columns, rng=seed).random(count)
     elif method == "latin":
         points = scipy.stats.qmc.LatinHypercube(columns, rng=seed).random(count)
@@ -163,14 +163,10 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
     return points
 
 
-def check_power(number: int, field: str, what: str) -> None:
-    """Raise an error unless a number is a power of 2.
-
-    The message suggests the next power of 2.
-    """
-    if number & (number - 1):
-        following = 1 << number.bit_length()
+def check_power(draws: int) -> None:
+    """Raise an error unless a number is a power of 2, and suggest the next one."""
+    if draws & (draws - 1):
         raise InputError(
-            f"{field}: {number} is not a power of 2, which {what} require; pass a power of 2, such "
-            f"as {following}"
+            f"draws: {draws} is not a power of 2, which Sobol's points require; pass a power of 2, "
+            f"such as {1 << draws.bit_length()}"
         )
