@@ -266,7 +266,7 @@ class _Task(NamedTuple):
 
     def part_of(self, name: str) -> tuple[str, ...]:
         """Return the dim of the parts of which a result has one each, if it has one."""
-        dim = "" if name == "status" else VARIABLES[name].part or ""
+        dim = VARIABLES[name].part
         return (dim,) if dim in self.parts else ()
 
     @property

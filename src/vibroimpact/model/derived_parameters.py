@@ -143,12 +143,13 @@ def _spring(rig: Rig) -> float:
     return rig.oscillator.isolator.initial_stiffness
 
 
-def _peak(rig: Rig) -> float:
+def largest_free_displacement(rig: Rig) -> float:
+    """Return the largest displacement without stops (m), which scales the gaps."""
     return peak_displacement(rig.oscillator, scale_of(rig))
 
 
 def _vary_gap_ratio(rig: Rig, value: float) -> Rig:
-    gap = value * _peak(rig)
+    gap = value * largest_free_displacement(rig)
     return _with_stops(rig, {side: {"gap": gap} for side in _numbers(rig.oscillator, "gap")})
 
 
@@ -242,7 +243,7 @@ DERIVED = {
     "gap_ratio": Derived(
         DIMENSIONLESS,
         "gap ratio of each side",
-        lambda rig: _common(rig.oscillator, "gap") / _peak(rig),
+        lambda rig: _common(rig.oscillator, "gap") / largest_free_displacement(rig),
         _vary_gap_ratio,
         comment="G / u_max",
         least=None,
