@@ -44,8 +44,8 @@ def check_body(name: object, masses: Collection[str], where: str) -> str:
 def check_known(name: object, names: Collection[str], what: str, where: str) -> str:
     """Check that a part of an assembly exists, and return its name.
 
-    `what` they name is such as "mass", and `where` the path of the name in messages, which suggest
-    the nearest name.
+    `what` is the kind of the part, such as "mass". The message begins with `where`, the path of the
+    name, and suggests the nearest one.
     """
     if isinstance(name, str) and name in names:
         return name
