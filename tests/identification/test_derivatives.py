@@ -29,7 +29,7 @@ def measured(solution, point):
     section = solution.section
     system = section.family.system(float(point[-1]))
     orbit.measure_orbit(
-        system, section.family.phase, point, solution.facts.copy(), section.period, MAX_EVENTS, row
+        system, section.family.phase, point, solution.facts.copy(), section.count, MAX_EVENTS, row
     )
     return np.array(
         [

@@ -16,7 +16,8 @@ import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify
-from vibroimpact.scenarios.evidence import each_evidence
+from vibroimpact.scenarios.evidence import shown
+from vibroimpact.scenarios.resonance_curves import each_curves
 from vibroimpact.scenarios.thresholds import Thresholds
 
 BUMPERS, GAPS, ACCELERATIONS = (
@@ -32,12 +33,10 @@ def named(step: int, **thresholds: float) -> dict[str, str]:
     cases = vi.laboratory.campaign()
     data = vi.sweeps(cases, np.arange(50, 501, step) / 100)
     used = Thresholds(**thresholds)
-    evidence = each_evidence(
-        [one_sine(case.rig) for case in cases],
-        data,
-        0.5 * used.prominence,
-    )
-    return {case.code: scenario(one, used).label for case, one in zip(cases, evidence, strict=True)}
+    return {
+        case.code: scenario(shown(one_sine(case.rig), curves, 0.5 * used.prominence), used).label
+        for case, curves in zip(cases, each_curves(data), strict=True)
+    }
 
 
 @pytest.mark.parametrize("step", [1, 2])

@@ -13,7 +13,7 @@ from response.curves import grid, made, swept
 from vibroimpact.cli import main
 from vibroimpact.response.confirmed_jumps import confirm_jumps, confirmed_mass_jumps
 from vibroimpact.response.mass_jumps import mass_steps
-from vibroimpact.response.resonance import features, jumps
+from vibroimpact.response.resonance import features
 
 
 @pytest.fixture
@@ -114,6 +114,6 @@ class TestOneMass:
         f = np.array(grid(1.0, 2.0, 0.1))
         data = made(f, 2.0 - 0.1 * (f - 1.0))
         data["eta_d"] = data["eta_d"].copy(data=np.where(f < 1.45, 1.0, 1.5)[np.newaxis])
-        (jump,) = jumps(data)
+        (jump,) = features(data).jumps
         assert jump.upward
         assert jump.by == "eta_d"

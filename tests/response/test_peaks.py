@@ -6,17 +6,14 @@ import numpy as np
 
 from response.curves import grid, made, primary, swept
 from vibroimpact.response.peaks import PROMINENCE
-from vibroimpact.response.resonance import (
-    features,
-    peaks,
-)
+from vibroimpact.response.resonance import features
 
 
 class TestPeaks:
     f = grid(1, 2, 0.1)
 
     def acceleration_peaks(self, curve, *, prominence=PROMINENCE, **options):
-        every = peaks(made(self.f, curve, **options), prominence=prominence)
+        every = features(made(self.f, curve, **options), prominence=prominence).peaks
         return [p for p in every if p.curve == "eta_a"]
 
     def test_prominence(self):

@@ -9,13 +9,12 @@ import pytest
 
 import vibroimpact as vi
 from response.curves import grid, made, primary, swept
+from vibroimpact.response.curve_pair import swept as arrays
 from vibroimpact.response.resonance import (
     Features,
     Hysteresis,
     Jump,
     features,
-    hysteresis,
-    jumps,
     ranges,
 )
 
@@ -72,8 +71,10 @@ class TestPublishedRig:
     def test_one_direction_alone_shows_its_jump(self, direction, step):
         both = swept("B2-G1-A3", 0.5, 5, step, "identified")
         alone = both.sel(direction=[direction])
-        assert jumps(alone) == tuple(j for j in jumps(both) if j.direction == direction)
-        assert hysteresis(alone) == ()
+        assert features(alone).jumps == tuple(
+            j for j in features(both).jumps if j.direction == direction
+        )
+        assert features(alone).hysteresis == ()
 
     def test_scenario_with_the_primary_resonance_only(self):
         curve_features = features(swept("B2-G2-A2", 0.5, 5, 0.01, "identified"))
@@ -135,7 +136,7 @@ class TestPublishedRig:
         oscillator, amplitude = made.oscillator, made.amplitude
         f0 = oscillator.natural_frequency
         data = vi.sweep(vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.3, 3, step)])
-        assert jumps(data) == ()
+        assert features(data).jumps == ()
 
     def test_no_jump_where_soft_bumpers_only_bend_the_curve(self):
         made = vi.from_dimensionless(0.1, 0.5, 0.01, 0.15)
@@ -143,7 +144,7 @@ class TestPublishedRig:
         f0 = oscillator.natural_frequency
         data = vi.sweep(vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.3, 3, 0.02)])
         assert features(data).contact != ()
-        assert jumps(data) == ()
+        assert features(data).jumps == ()
 
     def test_a_transient_that_outlasts_the_cycle_limit_is_no_evidence(self):
         made = vi.from_dimensionless(None, 0, 0, 1e-4)
@@ -164,51 +165,51 @@ class TestHysteresis:
     def test_sides(self):
         low, high = np.ones(11), np.ones(11)
         high[4:7] = 1.5
-        right = hysteresis(made(self.f, high, low))
-        left = hysteresis(made(self.f, low, high))
+        right = features(made(self.f, high, low)).hysteresis
+        left = features(made(self.f, low, high)).hysteresis
         assert right == (Hysteresis("right", 1.4, 1.6, 1.3, 1.7, True),)
         assert left == (Hysteresis("left", 1.4, 1.6, 1.3, 1.7, True),)
 
     def test_which_sweep_jumps_where(self):
         low, high = np.ones(11), np.ones(11)
         high[4:7] = 1.5
-        right = jumps(made(self.f, high, low))
+        right = features(made(self.f, high, low)).jumps
         assert ("forward", 1.6, 1.7) in [j[:3] for j in right]
         assert ("backward", 1.4, 1.3) in [j[:3] for j in right]
 
     def test_range_that_goes_on_beyond_the_sweep(self):
         data = made(self.f, np.full(11, 2.0), np.full(11, 1.0))
-        assert hysteresis(data) == (Hysteresis("right", 1.0, 2.0, None, None, True),)
-        assert hysteresis(data)[0].ends == (1.0, 2.0)
-        assert jumps(data) == ()
+        assert features(data).hysteresis == (Hysteresis("right", 1.0, 2.0, None, None, True),)
+        assert features(data).hysteresis[0].ends == (1.0, 2.0)
+        assert features(data).jumps == ()
 
     def test_small_differences_are_the_same_motion(self):
         forward = np.ones(11)
         backward = forward * 1.009
-        assert hysteresis(made(self.f, forward, backward)) == ()
-        assert len(hysteresis(made(self.f, forward, backward), apart=0.005)) == 1
+        assert features(made(self.f, forward, backward)).hysteresis == ()
+        assert len(features(made(self.f, forward, backward), apart=0.005).hysteresis) == 1
 
     def test_wide_tolerance_where_a_motion_did_not_settle(self):
         forward = np.ones(11)
         settled = np.ones((2, 11), dtype=bool)
         settled[0, 3:8] = False
         backward = np.where(settled[0], forward, 1.09)
-        assert hysteresis(made(self.f, forward, backward, settled=settled)) == ()
+        assert features(made(self.f, forward, backward, settled=settled)).hysteresis == ()
         backward = np.where(settled[0], forward, 1.2)
-        (only,) = hysteresis(made(self.f, forward, backward, settled=settled))
+        (only,) = features(made(self.f, forward, backward, settled=settled)).hysteresis
         assert not only.settled
 
     def test_two_sides_beside_each_other_are_two_ranges(self):
         forward, backward = np.ones(11), np.ones(11)
         backward[3:5], forward[5:8] = 2.0, 2.0
-        sides = hysteresis(made(self.f, forward, backward))
+        sides = features(made(self.f, forward, backward)).hysteresis
         assert [(h.side, h.low, h.high) for h in sides] == [("left", 1.3, 1.4), ("right", 1.5, 1.7)]
 
     def test_absent_values_are_left_out(self):
         forward, backward = np.ones(11), np.ones(11)
         forward[4:7] = 1.5
         backward[5] = np.nan
-        (only,) = hysteresis(made(self.f, forward, backward))
+        (only,) = features(made(self.f, forward, backward)).hysteresis
         assert (only.low, only.high) == (1.4, 1.6)
 
 
@@ -218,7 +219,7 @@ class TestBreaks:
     def test_step_between_level_parts(self):
         f = grid(1, 2, 0.1)
         data = made(f, np.where(np.array(f) < 1.45, 2.0, 1.0) + 0.001 * np.array(f))
-        assert brackets(jumps(data), "forward") == [(1.4, 1.5, "down")]
+        assert brackets(features(data).jumps, "forward") == [(1.4, 1.5, "down")]
 
     @pytest.mark.parametrize("power", [1 / 2, 1 / 3])
     @pytest.mark.parametrize("place", [0.0, 0.1, 0.25, 0.5, 0.9])
@@ -226,18 +227,18 @@ class TestBreaks:
         # The steepest ways in which a branch turns: fold or grazing, and cusp.
         x = np.arange(-20, 21) + place
         for curve in (np.sign(x) * np.abs(x) ** power, np.where(x > 0, np.abs(x) ** power, 0)):
-            assert jumps(made(x + 30, curve - curve.min() + 1.0)) == ()
-            assert jumps(made(x + 30, 3.0 - curve)) == ()
+            assert features(made(x + 30, curve - curve.min() + 1.0)).jumps == ()
+            assert features(made(x + 30, 3.0 - curve)).jumps == ()
 
     def test_uneven_steps_of_frequency_do_not_matter(self):
         f = np.array([1.0, 1.01, 1.02, 1.03, 1.5, 1.51, 1.52, 1.53])
-        assert jumps(made(f, f)) == ()
-        assert len(jumps(made(f, np.where(f < 1.025, f, f + 1)))) == 1
+        assert features(made(f, f)).jumps == ()
+        assert len(features(made(f, np.where(f < 1.025, f, f + 1))).jumps) == 1
 
     def test_both_directions_across_a_hysteresis_narrower_than_a_step(self):
         f = grid(1, 2, 0.1)
         curve = np.where(np.array(f) < 1.45, 1.0, 2.0) + 0.001 * np.array(f)
-        both = jumps(made(f, curve, curve))
+        both = features(made(f, curve, curve)).jumps
         assert brackets(both, "forward") == [(1.4, 1.5, "up")]
         assert brackets(both, "backward") == [(1.5, 1.4, "down")]
         assert both[0].eta_a == pytest.approx((1.0014, 2.0015))
@@ -246,25 +247,25 @@ class TestBreaks:
     def test_unsettled_curve_may_wander(self):
         f = grid(1, 2, 0.1)
         curve = np.where(np.array(f) < 1.45, 1.0, 1.08)
-        assert jumps(made(f, curve, settled=False)) == ()
-        assert len(jumps(made(f, curve))) == 1
+        assert features(made(f, curve, settled=False)).jumps == ()
+        assert len(features(made(f, curve)).jumps) == 1
 
     def test_short_and_empty_curves(self):
-        assert jumps(made([1.0], [1.0])) == ()
-        assert jumps(made([1.0, 2.0, 3.0], [1.0, 9.0, 1.0])) == ()
-        assert jumps(made([1.0, 2.0], [np.nan, np.nan])) == ()
+        assert features(made([1.0], [1.0])).jumps == ()
+        assert features(made([1.0, 2.0, 3.0], [1.0, 9.0, 1.0])).jumps == ()
+        assert features(made([1.0, 2.0], [np.nan, np.nan])).jumps == ()
 
 
 def test_ranges_are_runs():
     f = grid(1, 2, 0.1)
     data = made(f, np.ones(11))
-    where = data["eta_a"].copy(data=np.isin(np.arange(11), [0, 1, 5, 10])[np.newaxis])
-    runs = ranges(data, where)
+    where = np.isin(np.arange(11), [0, 1, 5, 10])[np.newaxis]
+    runs = ranges(arrays(data), where)
     assert [r[1:] for r in runs] == [(1.0, 1.1, 2), (1.5, 1.5, 1), (2.0, 2.0, 1)]
 
 
 def test_jumps_are_in_the_order_of_their_sweep():
-    every = jumps(swept("B3-10mm-A3", 0.3, 4, 0.01))
+    every = features(swept("B3-10mm-A3", 0.3, 4, 0.01)).jumps
     for direction, rising in (("forward", True), ("backward", False)):
         places = [j.frequency for j in every if j.direction == direction]
         assert len(places) > 2

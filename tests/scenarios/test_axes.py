@@ -7,23 +7,23 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.scenarios.axes import NAMES, Base, logarithmic, read_axes
+from vibroimpact.scenarios.axes import NAMES, logarithmic, read_axes, rig_at
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SINE = vi.Harmonic(CASE.amplitude, 1.0)
-BASE = Base(vi.Rig(CASE.oscillator, SINE))
+BASE = vi.Rig(CASE.oscillator, SINE)
 
 
 def test_physical_parameters():
     """A proportional stiffness keeps C_j/K_j, as the paper assumes (Section 7)."""
-    rig = BASE.rig({"proportional_stiffness": 680e3, "gap": 9e-3})
+    rig = rig_at(BASE, {"proportional_stiffness": 680e3, "gap": 9e-3})
     assert rig.sine == SINE
     for side in (rig.oscillator.right, rig.oscillator.left):
         assert side.stiffness == 680e3
         assert side.gap == 9e-3
         ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
         assert side.damping / side.stiffness == pytest.approx(ratio, rel=1e-14)
-    assert BASE.rig({"amplitude": 0.3}) == vi.Rig(CASE.oscillator, vi.Harmonic(0.3, 1.0))
+    assert rig_at(BASE, {"amplitude": 0.3}) == vi.Rig(CASE.oscillator, vi.Harmonic(0.3, 1.0))
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "damping_ratio"])
@@ -32,18 +32,18 @@ def test_a_name_means_in_maps_what_it_means_along_branches(name):
     oscillator = CASE.oscillator
     if name == "stops.restitution":
         oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
-        assert Base(vi.Rig(oscillator, SINE)).rig({name: 0.7}).oscillator.left.restitution == 0.7
+        assert rig_at(vi.Rig(oscillator, SINE), {name: 0.7}).oscillator.left.restitution == 0.7
         return
     value = 1.3 * varied.read(vi.Rig(oscillator, SINE))
-    assert Base(vi.Rig(oscillator, SINE)).rig({name: value}) == varied.vary(
+    assert rig_at(vi.Rig(oscillator, SINE), {name: value}) == varied.vary(
         vi.Rig(oscillator, SINE), value
     )
 
 
 def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_time():
     stiffness = 2.0 * CASE.oscillator.right.stiffness
-    alone = BASE.rig({"stops.stiffness": stiffness}).oscillator.right
-    scaled = BASE.rig({"proportional_stiffness": stiffness}).oscillator.right
+    alone = rig_at(BASE, {"stops.stiffness": stiffness}).oscillator.right
+    scaled = rig_at(BASE, {"proportional_stiffness": stiffness}).oscillator.right
     assert alone.stiffness == scaled.stiffness == stiffness
     assert alone.damping == CASE.oscillator.right.damping
     assert scaled.damping == pytest.approx(2.0 * alone.damping, rel=1e-14)
@@ -60,7 +60,7 @@ def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_tim
 )
 def test_dimensionless_parameters_one_at_a_time(name, value):
     before = vi.to_dimensionless(vi.Rig(CASE.oscillator, CASE.amplitude))
-    rig = BASE.rig({name: value})
+    rig = rig_at(BASE, {name: value})
     after = vi.to_dimensionless(vi.Rig(rig.oscillator, CASE.amplitude))
     assert rig.oscillator.mass == CASE.oscillator.mass
     assert rig.oscillator.isolator.stiffness == CASE.oscillator.isolator.stiffness
@@ -75,7 +75,7 @@ def test_dimensionless_parameters_one_at_a_time(name, value):
 
 def test_sides_keep_what_is_their_own():
     oscillator = CASE.oscillator.replace(left=None)
-    rig = Base(vi.Rig(oscillator, SINE)).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
+    rig = rig_at(vi.Rig(oscillator, SINE), {"gap_ratio": 0.5, "stiffness_ratio": 2.0})
     assert rig.oscillator.left is None
     assert rig.oscillator.right.stiffness == pytest.approx(2.0 * oscillator.isolator.stiffness)
 
@@ -155,22 +155,22 @@ def test_axes_that_do_not_go_together(vary, message):
 
 def test_a_base_without_bumpers_is_refused():
     with pytest.raises(vi.InputError, match="rig: there is no stop"):
-        Base(vi.Rig(CASE.oscillator.without_bumpers(), SINE)).rig({"gap": 1e-3})
+        rig_at(vi.Rig(CASE.oscillator.without_bumpers(), SINE), {"gap": 1e-3})
 
 
 def test_a_physical_and_a_dimensionless_parameter():
     """The physical ones hold as they are: a gap in mm is no other with another damping."""
-    rig = BASE.rig({"gap": 9e-3, "damping_ratio": 0.05})
+    rig = rig_at(BASE, {"gap": 9e-3, "damping_ratio": 0.05})
     assert rig.oscillator.right.gap == rig.oscillator.left.gap == 9e-3
     assert rig.oscillator.damping_ratio == pytest.approx(0.05, rel=1e-12)
     assert rig.oscillator.right.stiffness == pytest.approx(510e3, rel=1e-12)
-    rig = BASE.rig({"amplitude": 0.3, "stiffness_ratio": 5.0})
+    rig = rig_at(BASE, {"amplitude": 0.3, "stiffness_ratio": 5.0})
     assert rig.amplitude == 0.3
     assert rig.oscillator.right.gap == CASE.oscillator.right.gap
     ratio = rig.oscillator.right.stiffness / rig.oscillator.isolator.stiffness
     assert ratio == pytest.approx(5.0, rel=1e-12)
     # Here the gap follows the amplitude.
-    rig = BASE.rig({"amplitude": 0.3, "gap_ratio": 0.5})
+    rig = rig_at(BASE, {"amplitude": 0.3, "gap_ratio": 0.5})
     assert vi.to_dimensionless(vi.Rig(rig.oscillator, 0.3)).right.gap == pytest.approx(
         0.5, rel=1e-12
     )

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.facts.scenario_map import constants
-from vibroimpact.scenarios.axes import Base
+from vibroimpact.scenarios.axes import rig_at
 from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.sweep_frequencies import MOST_HIGH, highest
 
@@ -48,14 +48,12 @@ def test_a_map_over_what_a_rigid_stop_has() -> None:
 
 def test_nodes_change_what_each_stop_has() -> None:
     both = between(0.5).replace(left=vi.Bumper(20.0, 0.4, 0.5))
-    rig = (
-        Base(vi.Rig(both, SINE)).rig({"stops.restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
-    )
+    rig = rig_at(vi.Rig(both, SINE), {"stops.restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
     assert rig.right == vi.RigidStop(0.2, rig.right.gap)
     assert rig.right.gap == pytest.approx(0.5 * PEAK)
     assert rig.left.stiffness == pytest.approx(30.0)
     assert rig.left.gap == pytest.approx(0.5)
-    rig = Base(vi.Rig(both, SINE)).rig({"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
+    rig = rig_at(vi.Rig(both, SINE), {"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
     assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.6, 0.1))
 
 

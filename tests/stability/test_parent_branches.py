@@ -38,7 +38,7 @@ def test_the_branch_passes_its_parent_in_its_last_step(doubling):
     stations = followed.stations
     met = parent(stations[-2].orbit, stations[-1].orbit)
     assert met is not None
-    assert met.section.period == 1
+    assert met.section.count == 1
     places = [b.orbit.value for b in followed.bifurcations if b.turns and b.orbit is not met]
     assert min(abs(value - bifurcation.orbit.value) for value in places) < 1e-9
     middle = len(stations) // 2
@@ -49,5 +49,7 @@ def test_an_orbit_of_the_simpler_map_has_slid(doubling):
     bifurcation, followed = doubling
     assert not is_of_simpler_map(followed.stations[len(followed.stations) // 2].orbit)
     once = bifurcation.orbit
-    twice = Orbit(once.section.times(2), once.point, once.facts, once.carried, once.slope)
+    twice = Orbit(
+        once.section.with_map(2, mirror=False), once.point, once.facts, once.carried, once.slope
+    )
     assert is_of_simpler_map(twice)

@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.engine.one_mass.table import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
-from vibroimpact.stability.settled_motion import approach, later, reach, state_distance
+from vibroimpact.stability.settled_motion import approach, reach, state_distance
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
@@ -18,7 +18,7 @@ SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
 def test_it_repeats_itself():
     motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
     assert (motion.status, motion.period) == (Status.DONE, 1)
-    status, state = later(motion, motion.state, 1.0)
+    status, state = motion.engine.propagate(motion.state, 1.0)
     assert status is Status.DONE
     assert state_distance(motion, motion.state, state, reach(motion, motion.state)) < 1e-11
 
@@ -38,7 +38,7 @@ def test_the_phase_of_a_start_is_that_of_the_section():
 
 def test_the_mirror_image_half_a_cycle_later_is_a_motion():
     motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
-    _, half = later(motion, motion.state, 0.5)
+    _, half = motion.engine.propagate(motion.state, 0.5)
     image = approach(vi.Rig(CASE.oscillator, SHAKEN), mirror_image(half))
     assert image.cycles < 16 < motion.cycles
     size = reach(motion, motion.state)
@@ -49,4 +49,4 @@ def test_the_mirror_image_half_a_cycle_later_is_a_motion():
 @pytest.mark.parametrize("cycles", [0.5, 3.0])
 def test_a_limit_that_is_met_is_told(cycles):
     motion = approach(vi.Rig(CASE.oscillator, SHAKEN), vi.State())
-    assert later(motion, motion.state, cycles, max_events=1)[0] is Status.TOO_MANY_EVENTS
+    assert motion.engine.propagate(motion.state, cycles, max_events=1)[0] is Status.TOO_MANY_EVENTS

@@ -53,8 +53,6 @@ def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
         u, u̇, u_R, u_L, z at the sections of one period, the deformations away from the mass.
     size
         Of the motion (m).
-    owner
-        Number of the motion.
 
     Returns
     -------

@@ -125,14 +125,7 @@ def assembly_basins(
 ) -> xr.Dataset:
     """Return basins on a plane; rows are along the second coordinate.
 
-    Parameters
-    ----------
-    plane
-        The two coordinates.
-    start
-        A state, whose other coordinates are fixed; None for the equilibrium.
-    plan
-        The nodes, and how often they are refined.
+    `start` fixes the other coordinates; None is the equilibrium.
     """
     search = _Search(rig, start, plane, max_cycles, max_events)
     counts = plan.shape[::-1]

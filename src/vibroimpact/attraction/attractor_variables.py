@@ -54,16 +54,8 @@ def basin_variables(
 ) -> dict[str, Any]:
     """Return what a dataset says of basins, and the types and shares of their motions.
 
-    Parameters
-    ----------
-    labels, cycles, levels
-        Motion, cycles until it was identified, and level of refinement of each node.
-    plan
-        The nodes.
-    dims
-        Names of the rows and of the columns.
-    motions
-        In the order of their numbers.
+    `dims` are the names of the rows and of the columns, and `motions` stand in the order of their
+    numbers.
     """
     labels, cycles, levels = nodes
     step = plan.spacing(0)

@@ -17,7 +17,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.response.engine_input import as_state, engine_state
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.prepared_rig import prepare
-from vibroimpact.stability.settled_motion import Settled, later, reach
+from vibroimpact.stability.settled_motion import Settled, reach
 from vibroimpact.stability.steady import describe_motion
 
 _Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ def _points(steady_motion: Settled, stage: Stage) -> _Array | None:
     passed, state = [], steady_motion.state
     for _ in range(steady_motion.period):
         passed.append(state[PLACES])
-        status, state = later(steady_motion, state, 1.0, stage.max_events)
+        status, state = steady_motion.engine.propagate(state, 1.0, stage.max_events)
         if status is not Status.DONE:
             return None
     return np.array(passed)

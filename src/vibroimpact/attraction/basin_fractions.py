@@ -14,14 +14,7 @@ def interval(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The exact confidence interval of a share (C. J. Clopper, E. S. Pearson, Biometrika 26, 1934).
 
-    Parameters
-    ----------
-    hits, total
-        How many of how many random states.
-
-    Returns
-    -------
-    low, high
+    Return its low and its high end, for `hits` of `total` random states.
     """
     counts = np.asarray(hits, dtype=float)
     tail = 0.5 * (1.0 - confidence)

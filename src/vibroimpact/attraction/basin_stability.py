@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.attractor_variables import POINTS, ranked
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
-from vibroimpact.attraction.basins import span_of
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.match_attractors import matched
-from vibroimpact.attraction.state_window import Window, walls, window
+from vibroimpact.attraction.state_window import Window, read_window, walls, window
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model.argument_types import (
@@ -29,7 +28,6 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.parameter_ranges import Values, read_values
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.public import public
-from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, workers_for
@@ -128,17 +126,17 @@ def basin_stability(
         rig = rig.at(values[0])
     rig.check_frequency()
     workers = workers_for(threads, where)
-    wide = span_of(displacement, LENGTH, "displacement")
-    fast = span_of(velocity, VELOCITY, "velocity")
     searches = []
     for value in values:
         here = varied.vary(rig, value) if varied else rig
         check_bounded(here)
         searches.append(Search(Stage(here, max_events), max_cycles, workers))
-    if wide is None or fast is None:
+
+    def around_all() -> Window:
         every = [window(search) for search in searches]
-        wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)
-    ranges = wide, fast
+        return _around(w[0] for w in every), _around(w[1] for w in every)
+
+    ranges = wide, fast = read_window(displacement, velocity, around_all)
     reached_motions: list[_ReachedMotions] = []
     numbers: list[list[int]] = []
     for i, search in enumerate(searches):

@@ -22,7 +22,7 @@ from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.node_labels import NodeLabels, label_nodes
 from vibroimpact.attraction.state_grid import lattice
-from vibroimpact.attraction.state_window import walls, window
+from vibroimpact.attraction.state_window import read_window, walls, window
 from vibroimpact.datasets.description import (
     describe,
     rig_parameters,
@@ -33,8 +33,7 @@ from vibroimpact.model import AssemblyState, Oscillator, State, to_si
 from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.public import public
-from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.quantity_lists import read_span
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.tasks.executors import THREADS, workers_for
@@ -177,12 +176,7 @@ def basins(
     others = _others(rig.oscillator, deformation, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
-    wide = span_of(displacement, LENGTH, "displacement")
-    fast = span_of(velocity, VELOCITY, "velocity")
-    if wide is None or fast is None:
-        from_search = window(search)
-        wide, fast = wide or from_search[0], fast or from_search[1]
-    ranges = wide, fast
+    ranges = read_window(displacement, velocity, lambda: window(search))
     points = lattice(*ranges, plan.shape[::-1], others)
     low, high = walls(stage)
     outside = (points.displacement < low) | (points.displacement > high)
@@ -213,13 +207,6 @@ def _nodes(nodes: int | tuple[int, int]) -> tuple[int, int]:
             "displacement and velocity, such as (200, 100)"
         )
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
-
-
-def span_of(
-    span: Sequence[float | str] | None, quantity: Quantity, field: str
-) -> tuple[float, float] | None:
-    """Read the lowest and the highest value of a window; return None without a window."""
-    return None if span is None else read_span(span, quantity, field)
 
 
 def _others(

@@ -72,12 +72,7 @@ class Search:
     def label(self, points: Points, progress: Progress | None = None) -> Labelled:
         """Find where states lead; what they lead to is known afterwards.
 
-        Parameters
-        ----------
-        points
-            u, u̇, u_R, u_L, z of each, the deformations away from the mass.
-        progress
-            Called with the states done and all.
+        Points are u, u̇, u_R, u_L, z, the deformations away from the mass.
 
         Raises
         ------

@@ -133,10 +133,7 @@ def follow(
 ) -> Followed:
     """Follow states in regions, over threads; no result depends on their number.
 
-    Parameters
-    ----------
-    points, states
-        Where the motions begin, or where they go on: one of the two is None.
+    Motions begin at the points, or go on from the states: one of the two is None.
     """
     begun: Points = np.empty((0, ONE_MASS.total)) if points is None else points
     held = np.empty((0, ONE_MASS.width)) if states is None else states

@@ -19,14 +19,13 @@ from vibroimpact.attraction.adaptive_curve import (
     Curve,
     Measure,
 )
-from vibroimpact.attraction.basins import span_of
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.saddles import Saddle, border_saddles, given_saddle, saddle_points
 from vibroimpact.attraction.section_coordinates import remembered
 from vibroimpact.attraction.stable_manifold import stable_curve
-from vibroimpact.attraction.state_window import window
+from vibroimpact.attraction.state_window import read_window, window
 from vibroimpact.attraction.unstable_manifold import unstable_curve
 from vibroimpact.datasets.description import (
     describe,
@@ -41,7 +40,7 @@ from vibroimpact.model.argument_types import (
     Share,
 )
 from vibroimpact.model.public import public
-from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
+from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
@@ -157,12 +156,8 @@ def manifolds(
             f"oscillator: {why}, so the manifolds of saddles do not lie in the plane of "
             f"displacement and velocity; {change}"
         )
-    wide = span_of(displacement, LENGTH, "displacement")
-    fast = span_of(velocity, VELOCITY, "velocity")
     search = Search(stage, max_cycles, workers)
-    if wide is None or fast is None:
-        default_ranges = window(search, progress)
-        wide, fast = wide or default_ranges[0], fast or default_ranges[1]
+    wide, fast = read_window(displacement, velocity, lambda: window(search, progress))
     corners = np.array([wide, fast])
     left_out: list[str] = []
     if saddles is None:
@@ -285,7 +280,7 @@ def _dataset(
         "saddle_velocity": ("saddle", np.array([one.point[1] for one in saddles])),
         "saddle_period": (
             "saddle",
-            np.array([one.orbit.section.period for one in saddles], dtype=np.int64),
+            np.array([one.orbit.section.count for one in saddles], dtype=np.int64),
         ),
         "multiplier_growing": ("saddle", np.array([one.growing for one in saddles])),
         "multiplier_dying": ("saddle", np.array([one.dying for one in saddles])),

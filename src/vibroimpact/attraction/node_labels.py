@@ -35,8 +35,6 @@ def label_nodes(plan: Nodes, label: _Label, outside: NDArray[np.bool_] | None = 
 
     Parameters
     ----------
-    plan
-        The nodes, and how often they are refined.
     label
         Returns the motions, or `UNDECIDED` or `NOWHERE`, and the cycles of some nodes, by their
         numbers.

@@ -21,7 +21,7 @@ from vibroimpact.attraction.state_window import Window
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.engine_input import state_from
-from vibroimpact.stability.fixed_points import Orbit, Section, evaluated
+from vibroimpact.stability.fixed_points import Orbit, evaluated
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import family
 from vibroimpact.tasks.threads import Progress
@@ -61,15 +61,12 @@ class Saddle(NamedTuple):
 def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     """The points of a saddle orbit, a cycle apart.
 
-    Raises
-    ------
-    InputError
-        If it is not a saddle; the message begins with `where`.
+    If the orbit is not a saddle, an error is raised whose message begins with `where`.
     """
-    full = orbit.section.simpler(orbit.section.count, mirror=False)
-    one = Section(full.family, 1, False, full.scale)
+    full = orbit.section.with_map(orbit.section.count, mirror=False)
+    one = full.with_map(1, mirror=False)
     point, saddles = orbit.point, []
-    for _ in range(orbit.section.period):
+    for _ in range(orbit.section.count):
         status, here, _ = evaluated(full, relaxed(point), 0.0)
         values, vectors = np.linalg.eig(here.map_derivative[:2, :2])
         order = np.argsort(-np.abs(values))
@@ -90,14 +87,11 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
 def check_flies(stage: Stage, orbit: Orbit) -> None:
     """Check that no point of an orbit has more to it than the plane shows.
 
-    Raises
-    ------
-    InputError
-        If one presses a stop whose force depends on the speed at which it was met.
+    It must not press a stop whose force depends on the speed at which it was met.
     """
-    one = Section(orbit.section.family, 1, False, orbit.section.scale)
+    one = orbit.section.with_map(1, mirror=False)
     point = orbit.point
-    for _ in range(orbit.section.period):
+    for _ in range(orbit.section.count):
         if met(stage, point).any():
             raise InputError(
                 f"excitation.phase: at {stage.excitation.phase:.6g} rad, the mass on the saddle "

@@ -52,7 +52,7 @@ def stable_curve(
     share of the work that is done at least.
     """
     twice = 2 if saddle.dying < 0.0 else 1
-    section = saddle.orbit.section.simpler(saddle.orbit.section.count * twice, mirror=False)
+    section = saddle.orbit.section.with_map(saddle.orbit.section.count * twice, mirror=False)
     chains = _Chains(saddle, section, side, measure, abs(saddle.dying) ** twice, tell)
     parts = [saddle.point[None], chains.level(0)]
     total = measure.length(parts[1])

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from vibroimpact.attraction.find_attractors import Search
@@ -10,7 +13,8 @@ from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.quantities import LENGTH, VELOCITY
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.stability.settled_motion import approach, reach, reach_at_rest
 from vibroimpact.tasks.threads import Progress
 
@@ -34,6 +38,16 @@ def walls(stage: Stage) -> tuple[float, float]:
     )
 
 
+def read_window(displacement: Any, velocity: Any, default: Callable[[], Window]) -> Window:
+    """Return ranges of displacement and velocity; those that were not passed are the default's."""
+    wide = None if displacement is None else read_span(displacement, LENGTH, "displacement")
+    fast = None if velocity is None else read_span(velocity, VELOCITY, "velocity")
+    if wide is None or fast is None:
+        from_search = default()
+        wide, fast = wide or from_search[0], fast or from_search[1]
+    return wide, fast
+
+
 def window(search: Search, progress: Progress | None = None) -> Window:
     """A window around all motions that starts in a larger one lead to.
 
@@ -46,8 +60,8 @@ def window(search: Search, progress: Progress | None = None) -> Window:
     """
     stage = search.stage
     excitation = stage.excitation
-    rest = approach(Rig(stage.oscillator, excitation), State(phase=excitation.phase))
-    size = reach_at_rest(Rig(stage.oscillator, excitation))
+    rest = approach(stage.rig, State(phase=excitation.phase))
+    size = reach_at_rest(stage.rig)
     if rest.status in (Status.DONE, Status.NOT_SETTLED):
         size = max(size, reach(rest, rest.state))
     size = FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops.values()), 0.0)

@@ -98,14 +98,8 @@ def follow(
 
     Parameters
     ----------
-    path
-        What is followed.
-    start
-        Where to begin, and which way.
     most_points
         Points after which it is given up.
-    progress
-        Called with each point.
     """
     points = [start]
     here = start

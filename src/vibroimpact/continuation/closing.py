@@ -22,10 +22,6 @@ def returned(
 
     Parameters
     ----------
-    path
-        What is followed.
-    here, there
-        The ends of the step.
     marks
         Unknowns of the points, and the curve's tangents there.
     solved
@@ -47,10 +43,6 @@ def crossing(path: Path[P], here: P, there: P, mark: Array, tangent: Array) -> A
 
     Parameters
     ----------
-    path
-        What is followed.
-    here, there
-        The ends of the step.
     mark, tangent
         Unknowns of the point that it may return to, and the curve's tangent there.
 

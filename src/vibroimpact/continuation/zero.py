@@ -94,12 +94,6 @@ def between_zeros(
 
     Parameters
     ----------
-    ends
-        Its values at the ends of the step, of one sign.
-    mean
-        Its mean over the step.
-    end
-        The step's length.
     solved
         The solution after a part of the step, None if there is none.
     function

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import each_by_stop, has_stops, shared_part_names
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import (
-    DIMS,
     PEAKS,
     AnyRecords,
     ByRecords,
@@ -133,16 +133,15 @@ def design_chart(
     """
     vary, frequencies = split_frequency(vary)
     system, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
-    plan = runs(system, vary, least=1, any_masses=True)
+    plan = runs(system, vary, least=1)
     workers = workers_for(threads, where)
     rigs = [plan.system(at) for at in np.ndindex(*plan.shape)]
-    known = [name for name in PEAKS if not system.by_mass or name in DIMS]
+    known = [name for name in PEAKS if not system.by_mass or VARIABLES[name].part]
     if system.by_mass and isinstance(what, ByRecords):
         known.append("peak_drift")
     parts: dict[str, list[str]] = {}
     if system.by_mass:
-        names = system.part_names
-        parts = {name: names[DIMS[name]].tolist() for name in known if name in DIMS}
+        parts = {name: system.part_names[VARIABLES[name].part].tolist() for name in known}
     most = limits_of(limits, known, parts)
     responses = what.peaks(rigs, workers, progress)
     data = _dataset(plan, rigs, {**responses, **_dampings(plan, rigs)}, most)
@@ -180,7 +179,7 @@ def _dataset(
         base, _, part = name.partition(".")
         values: Any = responses[base]
         if part:
-            values = values[:, first.part_names[DIMS[base]].tolist().index(part)]
+            values = values[:, first.part_names[VARIABLES[base].part].tolist().index(part)]
         within &= severity(name, values) <= severity(name, limit)
     u, a = (
         np.where(within, severity(name, responses[name]), np.nan)
@@ -192,7 +191,7 @@ def _dataset(
     for name, values in {**responses, **own}.items():
         dims = plan.dims
         if first.by_mass:
-            dims += (DIMS[name],) if name in DIMS else ()
+            dims += (part,) if (part := VARIABLES[name].part) else ()
         elif has_stops(name):
             dims, values = (*dims, "stop"), each_by_stop(rigs, values, names["stop"])
         shaped[name] = (dims, values.reshape(*plan.shape, *values.shape[1:]))

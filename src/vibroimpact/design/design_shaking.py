@@ -17,13 +17,13 @@ from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Record
+from vibroimpact.model import Record
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.quantity_lists import read_span
-from vibroimpact.model.read_rig import as_rig, as_rig_of_any_masses, one_system
-from vibroimpact.model.rig import one_mass_only, with_stated_units
+from vibroimpact.model.read_rig import as_rig_of_any_masses
+from vibroimpact.model.rig import with_stated_units
 from vibroimpact.model.system import System
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.record_dataset import record_notes
@@ -44,17 +44,6 @@ PEAKS = (
     "penetration",
 )
 """Results of each rig, in m, m/s² and N; those of stops have both sides as a further axis."""
-DIMS = {
-    "peak_displacement": "mass",
-    "displacement_max": "mass",
-    "displacement_min": "mass",
-    "peak_acceleration": "mass",
-    "displacement_frequency": "mass",
-    "acceleration_frequency": "mass",
-    "peak_drift": "link",
-    "peak_force": "stop",
-}
-"""Dims of the results of an assembly."""
 
 
 class Asked(Protocol):
@@ -202,31 +191,6 @@ def _penetration(rigs: Sequence[System], right: _Array, left: _Array) -> dict[st
     return {"penetration": depth}
 
 
-def design_rig(
-    rig: Any,
-    records: Any,
-    frequencies: object,
-    *,
-    fractile: float,
-    step: float,
-    tail: Any,
-) -> tuple[Oscillator, BySines | ByRecords]:
-    """Read the oscillator of a design, and what it is designed for.
-
-    ``frequencies`` is the range of the sines as the caller passed it, or None.
-
-    Raises
-    ------
-    InputError
-        If it cannot be used.
-    """
-    as_rig(rig, oscillator_alone=records is not None)
-    oscillator, what = design_system(
-        rig, records, frequencies, fractile=fractile, step=step, tail=tail
-    )
-    return one_mass_only(oscillator), what
-
-
 def design_system(
     rig: Any,
     records: Any,
@@ -236,8 +200,16 @@ def design_system(
     step: float,
     tail: Any,
 ) -> tuple[System, BySines | ByRecords]:
-    """Do what `design_rig` does, also for an assembly."""
-    checked_rig = as_rig_of_any_masses(rig) if records is None else one_system(rig)
+    """Read the system of a design, and what it is designed for.
+
+    ``frequencies`` is the range of the sines as the caller passed it, or None.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used.
+    """
+    checked_rig = as_rig_of_any_masses(rig, oscillator_alone=records is not None)
     engine_system(checked_rig.system).check_size()
     if records is None and isinstance(checked_rig.shaking, Record):
         records = checked_rig.shaking
@@ -264,13 +236,7 @@ def split_frequency(vary: object) -> tuple[Any, object]:
 
 
 def read_frequencies(frequencies: object) -> tuple[float, float] | tuple[None, None]:
-    """Read the lowest and the highest frequency (Hz); None for 0 and infinity.
-
-    Raises
-    ------
-    InputError
-        If they are no such pair.
-    """
+    """Read the lowest and the highest frequency (Hz); None for 0 and infinity."""
     if frequencies is None:
         return None, None
     return read_span(frequencies, FREQUENCY, field_of("frequency"), "frequency", above=0.0)

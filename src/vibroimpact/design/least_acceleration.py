@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig, split_frequency
+from vibroimpact.design.design_shaking import AnyRecords, Asked, design_system, split_frequency
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
@@ -25,8 +25,8 @@ from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
 from vibroimpact.model.parameters import in_units, parameter, set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
-from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig, one_mass_only, with_stated_units
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
@@ -179,9 +179,9 @@ def least_acceleration(
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
     vary, frequencies = split_frequency(vary)
-    oscillator, what = design_rig(
-        rig, records, frequencies, fractile=fractile, step=step, tail=tail
-    )
+    as_rig(rig, oscillator_alone=records is not None)  # refuses an assembly
+    system, what = design_system(rig, records, frequencies, fractile=fractile, step=step, tail=tail)
+    oscillator = one_mass_only(system)
     if gap is not None:
         oscillator = with_stated_units(oscillator, {"gap": gap})
         size = to_si(gap, LENGTH, "gap", minimum=0.0)

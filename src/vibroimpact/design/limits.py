@@ -31,10 +31,6 @@ def limits_of(
 
     Parameters
     ----------
-    limits
-        The limits.
-    known
-        Names of results.
     parts
         Names of the masses, links or stops of which a result has one each. Such a result may be
         limited for one of them, such as ``"peak_drift.storey"``.
@@ -67,13 +63,7 @@ def underscored(name: str) -> str:
 def severity(name: str, values: Any) -> Any:
     """Return what a limit bounds from above: minus the end on the left, the largest of all parts.
 
-    Parameters
-    ----------
-    name
-        Name of a result.
-    values
-        Its value, or its limit; of designs along the first axis. Stops, masses and links are along
-        the last one.
+    Designs are along the first axis of the values, and stops, masses and links along the last one.
     """
     severities = _sense(name) * values
     if np.ndim(severities) > 1 or (has_stops(name) and np.ndim(severities)):

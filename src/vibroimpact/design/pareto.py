@@ -13,16 +13,6 @@ def non_dominated(first: ArrayLike, second: ArrayLike) -> NDArray[np.bool_]:
     """Which points no other one beats: smaller in one of the two, and not larger in the other.
 
     Of points that are the same the first is kept; those that are not finite are not.
-
-    Parameters
-    ----------
-    first, second
-        Of one shape; the smaller the better.
-
-    Returns
-    -------
-    ndarray of bool
-        Of that shape.
     """
     one, other = (_rounded(np.asarray(values, dtype=float)) for values in (first, second))
     x, y = one.ravel(), other.ravel()

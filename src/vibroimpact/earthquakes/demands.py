@@ -156,7 +156,7 @@ def demands(
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
     shaking = suite(records)
-    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales}, any_masses=True)
+    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales})
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
@@ -266,7 +266,7 @@ class _Task(NamedTuple):
 
     def part_of(self, name: str) -> tuple[str, ...]:
         """Return the dim of the parts of which a result has one each, if it has one."""
-        dim = "" if name == "status" else VARIABLES[name].part or ""
+        dim = VARIABLES[name].part
         return (dim,) if dim in self.parts else ()
 
     @property

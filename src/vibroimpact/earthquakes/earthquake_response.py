@@ -31,15 +31,11 @@ def earthquake_response(
 
     Parameters
     ----------
-    rig
-        The rig, shaken by a record.
     tail
         Duration of free vibration after the record (s, or a string). None for two natural periods,
         the longest ones of an assembly.
     samples
         Samples of the motion in each step of the record.
-    progress
-        Called with the steps of the record done and their number.
 
     Returns
     -------

@@ -286,12 +286,7 @@ def _curve(
 def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
     """Fit the curve of the largest binomial likelihood.
 
-    Parameters
-    ----------
-    exceeding
-        Number of records that exceed at each scale, out of `count`.
-    logarithms
-        Logarithms of the scales.
+    `exceeding` is the number of records, of `count`, that exceed at each scale.
 
     Returns
     -------

@@ -57,13 +57,7 @@ class Measure(NamedTuple):
 
 
 def measure(choice: Any) -> Measure:
-    """Read an intensity measure: "factor", "PGA", or a natural period and a damping ratio.
-
-    Raises
-    ------
-    InputError
-        If it is none of them.
-    """
+    """Read an intensity measure: "factor", "PGA", or a natural period and a damping ratio."""
     if isinstance(choice, str) and choice == "factor":
         return Measure("factor of the record", DIMENSIONLESS)
     if isinstance(choice, str) and choice == "PGA":

@@ -103,6 +103,9 @@ def peaks(
 ) -> dict[str, NDArray[Any]]:
     """Return the peaks of rigs through records, at several scales each, from their rest.
 
+    With `energies` and `residuals`, `ENERGIES` and `RESIDUALS` of oscillators are found, too; the
+    former take several times as long.
+
     Parameters
     ----------
     shaken
@@ -110,16 +113,6 @@ def peaks(
         the same names.
     tail
         Duration of free vibration after each record (s); None for that of `free_tail`.
-    energies
-        Whether `ENERGIES` of oscillators are found, too, which takes several times as long.
-    residuals
-        Whether `RESIDUALS` of oscillators are found, too.
-    max_events
-        See `MAX_EVENTS`.
-    threads
-        Number of threads (default: one per processor); or a cluster. It does not affect the result.
-    progress
-        Called from the calling thread with the runs done and all there are.
     by_line
         Whether progress counts the steps of the records, in the place of runs.
 

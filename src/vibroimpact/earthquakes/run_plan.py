@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record, Rig
 from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated
 from vibroimpact.model.parameters import set_values
-from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
+from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.rig import with_stated_units
 from vibroimpact.model.system import System
 
@@ -58,10 +58,8 @@ class Runs(NamedTuple):
         """
         names = list(self.rigs)
         rig = self.rigs[names[at[0] if self.several else 0]]
-        values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
-        whole = Rig(rig)
-        numbers = {one.name: float(one.values[values[one.name]]) for one in self.varied}
-        return set_values(whole, numbers).system
+        places = zip(self.varied, at[self.several :], strict=True)
+        return set_values(Rig(rig), {one.name: float(one.values[k]) for one, k in places}).system
 
 
 def runs(
@@ -69,20 +67,18 @@ def runs(
     vary: Values | None,
     others: Mapping[str, object] | None = None,
     least: int = 0,
-    any_masses: bool = False,
 ) -> Runs:
     """Read the rigs: one, or several by name or in a list; and what is varied of each.
 
     ``others`` are values, by their names in messages, that may state a unit, too. ``least`` is the
-    least number of parameters that are varied. ``any_masses`` accepts assemblies.
+    least number of parameters that are varied.
 
     Raises
     ------
     InputError
         If one cannot be used.
     """
-    reader = as_rigs_of_any_masses if any_masses else as_rigs
-    read = reader(rig, "rig", oscillator_alone=True)
+    read = as_rigs(rig, "rig", oscillator_alone=True)
     rigs: dict[str, System] = {name: one.system for name, one in read.items()}
     if is_one_rig(rig):
         rigs = {"rig": next(iter(rigs.values()))}

@@ -179,10 +179,7 @@ def _unbounded(values: xr.DataArray, status: xr.DataArray, quantity: str) -> xr.
 def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
     """Read a limit of one of the peaks; None is 0 for counts.
 
-    Raises
-    ------
-    InputError
-        If it is another quantity, or is missing for a quantity that is not a count.
+    Another quantity is refused, and a missing limit of one that is not a count.
     """
     expected: Quantity = (
         _QUANTITIES.get(of_quantity(demands, quantity).attrs["units"]) or DIMENSIONLESS

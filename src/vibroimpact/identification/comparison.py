@@ -131,13 +131,8 @@ def remodelled(model: str, oscillator: Oscillator, depth: float) -> Oscillator:
 def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
     """Translate the free parameters, with guesses and bounds, into those of another model.
 
-    Parameters
-    ----------
-    model
-        Name of the model.
-    asked
-        Arguments of `identify`: ``free`` and ``priors`` as mappings, ``each`` and ``ties``.
-        Bounds and priors of parameters with another meaning in the model are left out.
+    ``free`` and ``priors`` are mappings here. Bounds and priors of parameters with another meaning
+    in the model are left out.
     """
     names = _DISSIPATION if model == "hertz" else {}
     changed = _OTHER_UNITS | set(names) if model == "hertz" else set()

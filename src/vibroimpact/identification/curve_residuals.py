@@ -53,12 +53,6 @@ class CurveTest:
 
     Parameters
     ----------
-    name
-        Of the test.
-    data
-        Curves of `read_measurement`.
-    rig
-        The rig and its shaking, before the fit.
     noise
         Standard deviation of a value as a share of it; None to estimate it.
     """

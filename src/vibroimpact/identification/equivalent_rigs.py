@@ -41,19 +41,12 @@ def rivals(
 ) -> tuple[Array, list[Rival]]:
     """Find what fits as well as a fit.
 
+    Return the best place, which is the fit unless another one is better, and the others.
+
     Parameters
     ----------
-    problem, x
-        The fit.
-    others
-        The other ends of the search.
     limit
         Rise of the deviance up to which a place fits as well.
-
-    Returns
-    -------
-    tuple
-        The best place, which is the fit unless another one is better, and the others.
     """
     factor = 2.0 * moments(problem.tail).deviance
     here = problem.cost(x)

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, advised, shown
 from vibroimpact.model.parameters import (
-    Parameter,
     canonical,
     parameter,
     parameters,
@@ -86,8 +85,6 @@ def frees(
     free
         Names, as a list or a string with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
-    rigs
-        The rig and shaking of each test.
     each
         Names of parameters that are fitted separately per test, as a list or a string with commas.
     priors
@@ -160,7 +157,7 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
     if name in SENSORS:
         quantity, now = SENSORS[name]
     else:
-        of = _parameter(name, rig)
+        of = parameter(name, rig, "free")
         quantity, least, most = of.quantity, of.least, of.most
         above = None if of.zero or least != 0.0 else 0.0
         now = of.read(rig)
@@ -243,21 +240,11 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
     return to_si(mean, quantity, f"{field}[0]"), size
 
 
-def _parameter(name: str, rig: Rig) -> Parameter:
-    return parameter(name, rig, "free")
-
-
 def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
     """The size of a kind of number, from the rig's mass, its frequency and how far it swings.
 
-    Parameters
-    ----------
-    quantity
-        What it is; of its dimensions is the size.
-    rig
-        The rig, shaken as in the test.
-    swing
-        Measured displacement (m), where it is known: the base of a free vibration is at rest.
+    `swing` is the measured displacement (m), where it is known: the base of a free vibration is at
+    rest.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     omega = oscillator.angular_frequency or shaken.angular_frequency

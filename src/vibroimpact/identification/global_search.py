@@ -64,18 +64,10 @@ def search(
 
     Parameters
     ----------
-    problem
-        What is fitted.
     tried
         Number of points that are tried, by Sobol's sequence over the ranges of the free parameters.
     starts
         Local fits: from the problem's own start, and from the best of these places.
-    seed
-        Of the sequence.
-    threads
-        How many run at once.
-    best
-        Other places to begin from.
     """
     count = len(problem.free)
     own = problem.start

@@ -62,10 +62,6 @@ class HistoryTest:
 
     Parameters
     ----------
-    name
-        Of the test.
-    data
-        A history of `read_measurement`.
     rig
         The rig and its shaking; of the shaking the amplitude alone, where the base was not
         measured.

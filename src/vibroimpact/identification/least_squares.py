@@ -103,12 +103,8 @@ class Problem:
 
     Parameters
     ----------
-    tests
-        What was measured.
     free
         What is free; counted in its own sizes, so that a fit's numbers are of size 1.
-    ties
-        Parameters that follow others.
     sigma
         Standard deviation of the points of each test.
     tail

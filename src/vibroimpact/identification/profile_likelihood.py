@@ -123,14 +123,8 @@ def profile(
 
     Parameters
     ----------
-    problem, x
-        The fit.
-    number
-        Of the parameter.
     around
         The covariance, by which the first step is chosen.
-    confidence
-        Of the interval.
     kept
         Numbers of other unknowns that are not fitted again.
 

@@ -61,8 +61,6 @@ def structure(
 
     Parameters
     ----------
-    rows
-        All residuals.
     size
         Their root mean square, as a share; 0 where it is not noise.
     noise

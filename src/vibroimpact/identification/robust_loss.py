@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
 from typing import NamedTuple
 
@@ -47,33 +47,20 @@ _STEPS = 30
 def noises(problem: Problem, x: Array, said: Sequence[bool]) -> list[float]:
     """The standard deviation of each test's points, from what the fit leaves.
 
-    Parameters
-    ----------
-    problem, x
-        The fit.
-    said
-        Of which tests it is known beforehand.
+    `said` states which are known beforehand.
     """
-    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
-    residuals = plain.values(x).residuals
     used = sum(t.points_count for t in problem.tests)
     spare = max(1.0 - len(x) / used, 0.1)
-    sigmas, begin = [], 0
-    for test, known in zip(problem.tests, said, strict=True):
-        points = residuals[begin : begin + test.points_count]
-        begin += test.count
-        sigmas.append(test.noise if known else max(_noise(points, problem.tail, spare), _LEAST))
-    return sigmas
+    return [
+        test.noise if known else max(_noise(points, problem.tail, spare), _LEAST)
+        for (test, points), known in zip(_plain_points(problem, x), said, strict=True)
+    ]
 
 
 def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
     """The tests, each quantity weighed by its own noise where that is not known beforehand."""
-    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
-    residuals = plain.values(x).residuals
-    tests, begin = [], 0
-    for test, known in zip(problem.tests, said, strict=True):
-        points = residuals[begin : begin + test.points_count]
-        begin += test.count
+    tests = []
+    for (test, points), known in zip(_plain_points(problem, x), said, strict=True):
         changed = copy(test)
         if not known and len(test.weights) > 1:
             of = np.array(test.channels)
@@ -87,6 +74,15 @@ def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
                 }
         tests.append(changed)
     return tests
+
+
+def _plain_points(problem: Problem, x: Array) -> Iterator[tuple[Test, Array]]:
+    """Each test with the residuals of its points, neither weighed nor softened."""
+    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
+    residuals, begin = plain.values(x).residuals, 0
+    for test in problem.tests:
+        yield test, residuals[begin : begin + test.points_count]
+        begin += test.count
 
 
 def _noise(points: Array, tail: float, spare: float) -> float:

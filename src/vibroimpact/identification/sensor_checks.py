@@ -29,17 +29,7 @@ def sensor_doubts(problem: Problem, x: Array, number: int) -> list[str]:
     From the start of the fit, the history is fitted again with a sensor reversed, if the rig is
     then about as near as it can be, and with offsets that are free.
 
-    Parameters
-    ----------
-    problem, x
-        The fit.
-    number
-        Of the test.
-
-    Returns
-    -------
-    list of str
-        One line if the residuals fall to less than half, none otherwise.
+    Return one line if the residuals fall to less than half, none otherwise.
     """
     test = problem.tests[number]
     if not isinstance(test, HistoryTest):

@@ -118,10 +118,7 @@ def kind_of(name: str) -> tuple[Kind | None, str]:
 def stated(attributes: Mapping[str, Any]) -> Stated:
     """Read the attributes of a channel.
 
-    Parameters
-    ----------
-    attributes
-        Attributes by name: texts, numbers, or lists with one entry.
+    Values are texts, numbers, or lists with one entry.
 
     Raises
     ------

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Array, Columns
-from vibroimpact.measurements.names import CURVES, Direction, Meaning, direction_of
-
-DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
+from vibroimpact.measurements.names import CURVES, Meaning, direction_of
+from vibroimpact.response.curve_pair import DIRECTIONS, Direction
 
 Known = dict[int, tuple[Meaning, Array]]
 """Meaning of columns and their values in SI units, by number of the column."""
@@ -26,8 +25,6 @@ def curves(
 
     Parameters
     ----------
-    table, known
-        The table that was read from the file, and the meanings of its columns.
     direction
         Direction of all rows, if the file does not state it.
     notes

@@ -19,12 +19,7 @@ def doubt_marks(name: str, values: NDArray[np.float64]) -> list[str]:
 
     A mark consists of nines, or is at least 1e30, and is far from all other values.
 
-    Parameters
-    ----------
-    name
-        Name of the column.
-    values
-        Its numbers as the file writes them. NaN is ignored.
+    Values are the numbers as the file writes them. NaN is ignored.
     """
     known = values[np.isfinite(values)]
     sizes = np.abs(known)

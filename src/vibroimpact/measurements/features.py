@@ -124,21 +124,11 @@ def _of_repeats(data: xr.Dataset) -> float:
 def measured_features(data: xr.Dataset) -> Features:
     """Find the peaks, jumps and hysteresis of measured curves.
 
-    Parameters
-    ----------
-    data
-        Curves of `read_measurement`.
-
     Returns
     -------
     Features
         The same features as those of a computed sweep. A jump lies between two neighbouring
         frequencies. Their distance is the resolution of the measurement.
-
-    Raises
-    ------
-    InputError
-        If the dataset holds no curves.
     """
     both = swept(data)
     noise = noise_of(both)

@@ -20,8 +20,6 @@ def shaking(table: Columns, arguments: Mapping[str, object], notes: list[str]) -
 
     Parameters
     ----------
-    table
-        The table that was read from the file.
     arguments
         Values in the call, which take precedence. None if the call has no value.
     notes

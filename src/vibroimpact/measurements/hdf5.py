@@ -82,13 +82,7 @@ def read(path: Path) -> list[Columns]:
 
 
 def _check_heaps(data: bytes) -> None:
-    """Check the heaps of texts, because HDF5 never ends at free space of size 0.
-
-    Raises
-    ------
-    ValueError
-        If there is such free space.
-    """
+    """Raise a ValueError if a heap of texts has free space of size 0, where HDF5 never ends."""
     at = data.find(_HEAP)
     while at >= 0:
         end = min(at + int.from_bytes(data[at + 8 : at + 16], "little"), len(data))

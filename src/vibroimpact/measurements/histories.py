@@ -17,8 +17,6 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
 
     Parameters
     ----------
-    table, known
-        The table that was read from the file, and the meanings of its columns.
     notes
         List to which notes on assumptions, and on what was left out, are added.
     facts

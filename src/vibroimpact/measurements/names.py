@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,9 +20,8 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
+from vibroimpact.response.curve_pair import Direction
 from vibroimpact.tables.units import ending, plain, spelled, time_unit, words_of
-
-Direction = Literal["forward", "backward"]
 
 CURVES: dict[str, Quantity] = {
     "displacement_excursion": LENGTH,
@@ -294,13 +293,7 @@ def size_of(unit: str, quantity: Quantity) -> float | None:
 
 
 def direction_of(word: object, path: str, where: str) -> Direction:
-    """Read the direction of a sweep, which is a word, 1 or −1.
-
-    Raises
-    ------
-    InputError
-        If it is none of these.
-    """
+    """Read the direction of a sweep, which is a word, 1 or −1."""
     text = plain(str(word).lower())
     if text in _FORWARD | {"f", "1", "1.0", "+1"}:
         return "forward"

@@ -230,13 +230,7 @@ def _checked(data: xr.Dataset) -> xr.Dataset:
 
 
 def as_measured(data: object, where: str = "data") -> xr.Dataset:
-    """Accept a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a file.
-
-    Raises
-    ------
-    InputError
-        If the data are none of these.
-    """
+    """Accept a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a file."""
     if isinstance(data, str | Path):
         return read_measurement(data)
     if isinstance(data, xr.Dataset):

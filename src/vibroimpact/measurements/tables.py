@@ -67,10 +67,6 @@ def columns(
 
     Parameters
     ----------
-    path
-        The file.
-    group
-        Values of the group, by name.
     about
         Statements about some of the values.
     said
@@ -149,13 +145,7 @@ def _words(
 
 
 def library(name: str, path: Path) -> Any:
-    """Import an optional library.
-
-    Raises
-    ------
-    InputError
-        If the library is not installed.
-    """
+    """Import an optional library, which must be installed."""
     try:
         return importlib.import_module(name)
     except ImportError:

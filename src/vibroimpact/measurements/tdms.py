@@ -71,13 +71,7 @@ def _strict(nptdms: Any) -> Iterator[None]:
 
 
 def _whole(path: Path) -> None:
-    """Check that the file ends where its last segment ends.
-
-    Raises
-    ------
-    InputError
-        If the file ends earlier.
-    """
+    """Check that the file ends where its last segment ends."""
     at, size = 0, path.stat().st_size
     with path.open("rb") as file:
         while at < size:

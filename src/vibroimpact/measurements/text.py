@@ -32,11 +32,6 @@ _OF_VALUES = {"", "amplitude", "acceleration", "acc", "accel", "data", "value", 
 def read(file: File) -> list[Columns]:
     """Read the table of a text file.
 
-    Parameters
-    ----------
-    file
-        The file.
-
     Raises
     ------
     InputError

@@ -82,13 +82,7 @@ _BINARY = re.compile(rb"^\s*58b\s", re.MULTILINE)
 
 
 def _whole(path: Path) -> None:
-    """Check that each set has an end mark.
-
-    Raises
-    ------
-    InputError
-        If the last set has no end mark.
-    """
+    """Check that each set has an end mark."""
     raw = path.read_bytes()
     lines = [line for one in raw.splitlines() if (line := one.strip())]
     if _BINARY.search(raw):

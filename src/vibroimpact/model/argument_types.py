@@ -13,7 +13,7 @@ from typing import Annotated, Any, TypeAlias
 
 from vibroimpact.arguments import check_path, check_text
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.quantities import DIMENSIONLESS, TIME
+from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity
 from vibroimpact.model.units import to_si
 
 LARGEST = 2**62
@@ -24,13 +24,7 @@ MOST_SAMPLES = 20_000_000
 
 
 def check_samples(cycles: float, samples: int, field: str, what: str = "cycles") -> None:
-    """Raise an error if a time history has more samples than fit in the memory.
-
-    Raises
-    ------
-    InputError
-        If there are more than `MOST_SAMPLES` samples in total.
-    """
+    """Raise an error if a time history has more samples than fit in the memory."""
     if cycles * samples > MOST_SAMPLES:
         raise InputError(
             f"{field}: {cycles:g} {what} of {samples} samples are too many; reduce {field}, so "
@@ -61,10 +55,7 @@ MOST_STARTS = 1_000_000
 def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int:
     """Return a whole number, which may be an integer of numpy.
 
-    Raises
-    ------
-    InputError
-        If the value is not a whole number, or if it is less than `least` or greater than `most`.
+    It must be from `least` to `most`.
     """
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not is_whole or not least <= int(value) <= most:  # type: ignore[call-overload]
@@ -74,82 +65,20 @@ def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int
 
 
 def share(value: object, field: str) -> float:
-    """Return a number that is greater than 0 and less than 1.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
+    """Return a number that is greater than 0 and less than 1."""
     number = to_si(value, DIMENSIONLESS, field, above=0.0)
     if not number < 1.0:
         raise InputError(f"{field}: {shown(value)}; pass a number between 0 and 1")
     return number
 
 
-def fractile(value: object, field: str) -> float:
-    """Return a number from 0 to 1.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
-    return to_si(value, DIMENSIONLESS, field, minimum=0.0, maximum=1.0)
-
-
-def tail(value: object, field: str) -> float:
-    """Return a duration of free vibration in s.
-
-    Raises
-    ------
-    InputError
-        If the value is not a time of at least 0.
-    """
-    return to_si(value, TIME, field, minimum=0.0, maximum=MOST_TAIL)
-
-
-def positive(value: object, field: str) -> float:
-    """Return a number that is greater than 0.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
-    return to_si(value, DIMENSIONLESS, field, above=0.0)
-
-
-def non_negative(value: object, field: str) -> float:
-    """Return a number that is at least 0.
-
-    Raises
-    ------
-    InputError
-        If the value is not such a number.
-    """
-    return to_si(value, DIMENSIONLESS, field, minimum=0.0)
-
-
-def seconds(value: object, field: str) -> float:
-    """Return a time in s.
-
-    Raises
-    ------
-    InputError
-        If the value is not a time of at least 0.
-    """
-    return to_si(value, TIME, field, minimum=0.0)
+def number(value: object, field: str, quantity: Quantity, **bounds: float) -> float:
+    """Return a number in SI units, within the bounds of `to_si`."""
+    return to_si(value, quantity, field, **bounds)
 
 
 def function_of(value: object, field: str, what: str) -> Any:
-    """Return a function. `what` describes accepted functions.
-
-    Raises
-    ------
-    InputError
-        If the value cannot be called.
-    """
+    """Return a function. `what` describes accepted functions."""
     if isinstance(value, type) or not callable(value):
         raise InputError(f"{field}: {shown(value)}; pass {what}")
     return value
@@ -169,14 +98,18 @@ Refinements: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_REFINE
 """Number of times that a grid is refined."""
 Share: TypeAlias = Annotated[float, share]
 """A number between 0 and 1."""
-Positive: TypeAlias = Annotated[float, positive]
-NonNegative: TypeAlias = Annotated[float, non_negative]
-Seconds: TypeAlias = Annotated[float, seconds]
+Positive: TypeAlias = Annotated[float, partial(number, quantity=DIMENSIONLESS, above=0.0)]
+NonNegative: TypeAlias = Annotated[float, partial(number, quantity=DIMENSIONLESS, minimum=0.0)]
+Seconds: TypeAlias = Annotated[float, partial(number, quantity=TIME, minimum=0.0)]
 """A time in s, at least 0."""
 String: TypeAlias = Annotated[str, check_text]
 File: TypeAlias = Annotated[Path | str, check_path]
 """Path of a file."""
-Fractile: TypeAlias = Annotated[float, fractile]
+Fractile: TypeAlias = Annotated[
+    float, partial(number, quantity=DIMENSIONLESS, minimum=0.0, maximum=1.0)
+]
 """A number from 0 to 1."""
-Tail: TypeAlias = Annotated[float | str, tail]
+Tail: TypeAlias = Annotated[
+    float | str, partial(number, quantity=TIME, minimum=0.0, maximum=MOST_TAIL)
+]
 """Duration of free vibration after a record, in s or with a unit."""

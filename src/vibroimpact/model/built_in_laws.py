@@ -11,13 +11,7 @@ from vibroimpact.model.stops import Bumper, PowerBumper, Stop
 
 
 def as_deformable(value: object, field: str) -> AnyIsolator | Stop:
-    """Return an isolator or a stop that is not rigid.
-
-    Raises
-    ------
-    InputError
-        If the value is none of them.
-    """
+    """Return an isolator or a stop that is not rigid."""
     if not isinstance(value, AnyIsolator | Stop):
         raise InputError(f"{field}: {shown(value)} is not a law; pass an isolator or a stop")
     if value.rigid:

@@ -65,10 +65,7 @@ def _fields(law: Model) -> dict[str, float]:
 def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
     """Return the numbers of the stops that have a number of this name, by side.
 
-    Raises
-    ------
-    InputError
-        If no stop has it.
+    At least one stop must have it.
     """
     by_side = {}
     for side in ("right", "left"):
@@ -97,10 +94,7 @@ def _common(oscillator: Oscillator, name: str) -> float:
 def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]]:
     """Return stiffness and damping of the bumpers, by side.
 
-    Raises
-    ------
-    InputError
-        If there is none, or if another law has a stiffness.
+    A stop of another law must not have a stiffness.
     """
     by_side = {}
     for side in _numbers(oscillator, "stiffness"):
@@ -149,12 +143,13 @@ def _spring(rig: Rig) -> float:
     return rig.oscillator.isolator.initial_stiffness
 
 
-def _peak(rig: Rig) -> float:
+def largest_free_displacement(rig: Rig) -> float:
+    """Return the largest displacement without stops (m), which scales the gaps."""
     return peak_displacement(rig.oscillator, scale_of(rig))
 
 
 def _vary_gap_ratio(rig: Rig, value: float) -> Rig:
-    gap = value * _peak(rig)
+    gap = value * largest_free_displacement(rig)
     return _with_stops(rig, {side: {"gap": gap} for side in _numbers(rig.oscillator, "gap")})
 
 
@@ -248,7 +243,7 @@ DERIVED = {
     "gap_ratio": Derived(
         DIMENSIONLESS,
         "gap ratio of each side",
-        lambda rig: _common(rig.oscillator, "gap") / _peak(rig),
+        lambda rig: _common(rig.oscillator, "gap") / largest_free_displacement(rig),
         _vary_gap_ratio,
         comment="G / u_max",
         least=None,

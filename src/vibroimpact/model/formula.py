@@ -109,8 +109,6 @@ def read_formula(
 
     Parameters
     ----------
-    text
-        The formula, such as ``"k*u + k3*u**3"``.
     numbers
         Values in SI units and dimensions of the numbers, by name.
     variables
@@ -162,13 +160,7 @@ def unclipped(text: str, variables: tuple[str, str]) -> tuple[ast.expr, bool]:
 
 
 def refuse_at(column: int, problem: str) -> NoReturn:
-    """Raise an error about the part of a formula that starts in a column.
-
-    Raises
-    ------
-    InputError
-        Always.
-    """
+    """Raise an error about the part of a formula that starts in a column."""
     raise InputError(f"formula: column {column}: {problem}")
 
 

@@ -95,18 +95,8 @@ _SIZES = [10.0 ** (0.05 * i) for i in range(-180, 81)]
 def check_divisors(formula: Formula, both_ways: bool) -> None:
     """Raise an error if a divisor, or the base of a fractional or negative power, can become 0.
 
-    Parameters
-    ----------
-    formula
-        The formula.
-    both_ways
-        Whether the first variable may be negative.
-
-    Raises
-    ------
-    InputError
-        If a divisor or such a base can become 0. The message states the column, and the values of
-        the variables.
+    The first variable may be negative with `both_ways`. The message states the column, and the
+    values of the variables.
     """
     for node in everywhere(formula.tree):
         if node.kind == "/":

@@ -75,14 +75,10 @@ def check_numbers(
 
     Parameters
     ----------
-    formula
-        Formula, as text.
     numbers
         Values in SI units and stated dimensions of the numbers, by name.
     arguments
         The numbers as they were passed by the user.
-    variables
-        Names of the displacement and of the velocity.
     """
     stated = [name for name, (_, dimension) in numbers.items() if dimension is not None]
     if not stated:

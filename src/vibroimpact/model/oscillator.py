@@ -333,13 +333,7 @@ class Oscillator(System):
         return self.isolator.linear and all(one.linear for one in self.stops.values())
 
     def _acted_on_by(self, shaking: Repeated) -> Repeated:
-        """Return an excitation, which acts on the only mass.
-
-        Raises
-        ------
-        InputError
-            If it states a mass.
-        """
+        """Return an excitation, which acts on the only mass, and must not name one."""
         if shaking.on is not None:
             raise InputError(
                 f"shaking.on: {shaking.on!r}, but an Oscillator has only one mass; remove on"

@@ -52,13 +52,7 @@ class Range(NamedTuple):
         return self.low, self.high
 
     def check_contains(self, value: float, why: str = "") -> None:
-        """Refuse a range that does not contain the rig's own value. ``why`` it must, in words.
-
-        Raises
-        ------
-        InputError
-            If the value lies outside the range.
-        """
+        """Refuse a range that does not contain the rig's own value. ``why`` it must, in words."""
         if not self.low <= value <= self.high:
             low, high, own = (pretty(one, self.parameter.quantity) for one in (*self.ends, value))
             raise InputError(
@@ -72,18 +66,10 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
 
     Parameters
     ----------
-    vary
-        The argument.
     rig
         The rig. The unit of a parameter may depend on its laws.
     count
         Number of parameters. None if any number of at least one is accepted.
-
-    Raises
-    ------
-    InputError
-        If it is not a mapping with so many parameters, if there is no such parameter, if a range is
-        not a pair in rising order, or if a value is invalid.
     """
     least, most = (1, None) if count is None else (count, count)
     examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
@@ -97,21 +83,7 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
 def read_range(varied: Parameter, span: object, field: str, *, positive: bool = False) -> Range:
     """Read the range of a parameter, a pair.
 
-    Parameters
-    ----------
-    varied
-        The parameter.
-    span
-        The argument.
-    field
-        Its name in messages.
-    positive
-        Whether the values must be greater than 0, as for logarithmic spacing.
-
-    Raises
-    ------
-    InputError
-        If it is not a pair in rising order, or if a value is invalid.
+    With `positive`, the values must be greater than 0, as for logarithmic spacing.
     """
     bounds = _bounds(varied, positive)
     low, high = read_span(span, varied.quantity, field, f"value of {varied.name}", **bounds)
@@ -130,24 +102,16 @@ def read_values(
 ) -> tuple[Varied, ...]:
     """Read parameters and their values, such as ``{"gap": ["3 mm", "7 mm"]}``.
 
+    No value may occur twice.
+
     Parameters
     ----------
     vary
         The argument. None means no parameter, if this is accepted.
-    rig
-        The rig. The unit of a parameter may depend on its laws.
     least, most
         Least and largest number of parameters.
-    longest
-        Largest number of values of a parameter.
     but, why
         Names of parameters that are not accepted, and the reason in words.
-
-    Raises
-    ------
-    InputError
-        If it is not such a mapping, if there is no such parameter, or if a value is invalid or
-        occurs twice.
     """
     lists = entries(vary, least, most)
     parameters = _parameters(lists, rig)
@@ -175,10 +139,7 @@ def stated(vary: object) -> dict[str, Any]:
 def entries(vary: object, least: int = 0, most: int | None = None) -> dict[str, Any]:
     """Return the values of the parameters that are varied, as they were passed.
 
-    Raises
-    ------
-    InputError
-        If it is not a mapping from names, or if it has fewer than `least` or more than `most`.
+    They must be a mapping from names, with `least` to `most` entries.
     """
     return _given({} if vary is None and not least else vary, "values", _VALUES, least, most)
 

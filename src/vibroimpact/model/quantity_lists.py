@@ -22,8 +22,6 @@ def read_span(
 
     Parameters
     ----------
-    span
-        The argument, a pair.
     quantity, field, bounds
         As in `to_si`.
     what
@@ -55,8 +53,6 @@ def read_rising(
 
     Parameters
     ----------
-    values
-        The argument.
     quantity, field, bounds
         As in `to_si`.
     least

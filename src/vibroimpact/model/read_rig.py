@@ -30,10 +30,9 @@ def as_rig(
     value: Any,
     frequency: float | str | None = None,
     *,
-    where: str = "rig",
     oscillator_alone: bool = False,
 ) -> Rig:
-    """Return the rig that an argument describes.
+    """Return the rig with one mass that an argument describes.
 
     Parameters
     ----------
@@ -41,8 +40,6 @@ def as_rig(
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
         Forcing frequency in Hz, or a string with a unit. Default: the frequency of the rig.
-    where
-        Name of the argument in error messages.
     oscillator_alone
         Whether an `Oscillator` without shaking is accepted. Default: False.
 
@@ -52,24 +49,20 @@ def as_rig(
         If the value is not a rig, or if the study file is invalid. Also if a frequency is passed,
         but a record shakes the rig.
     """
-    rig = _read(value, where, oscillator_alone)
-    one_mass_only(rig.system, where)
+    rig = _read(value, "rig", oscillator_alone)
+    one_mass_only(rig.system)
     return rig if frequency is None else rig.at(frequency)
 
 
 def as_rig_of_any_masses(
-    value: Any, where: str = "rig", *, frequency: float | str | None = None
+    value: Any,
+    where: str = "rig",
+    *,
+    frequency: float | str | None = None,
+    oscillator_alone: bool = False,
 ) -> Rig:
-    """Return the rig that an argument describes, also if its system is an assembly.
-
-    The arguments are those of `as_rig`.
-
-    Raises
-    ------
-    InputError
-        If the value is not a rig, or if the study file is invalid.
-    """
-    rig = _read(value, where, oscillator_alone=False)
+    """Do what `as_rig` does, also if the system is an assembly. `where` names the argument."""
+    rig = _read(value, where, oscillator_alone)
     return rig if frequency is None else rig.at(frequency)
 
 
@@ -80,13 +73,7 @@ RigOrSystem: TypeAlias = AnyRig | Oscillator | Assembly
 
 
 def as_assembly(value: Any, where: str = "rig") -> Assembly:
-    """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
-
-    Raises
-    ------
-    InputError
-        If the value is not a rig, if the study file is invalid, or if the rig has an oscillator.
-    """
+    """Return the assembly that an argument describes: an `Assembly`, or a rig with one."""
     return several_masses_only(_read(value, where, oscillator_alone=True).system, where)
 
 
@@ -94,21 +81,8 @@ AnyAssembly: TypeAlias = Annotated[Assembly | Rig | str | Path, as_assembly]
 """An `Assembly`, a `Rig` with one, or the path of a study file."""
 
 
-def one_system(value: Any, where: str = "rig") -> Rig:
-    """Return the rig that an argument describes, of any masses, with or without shaking.
-
-    Raises
-    ------
-    InputError
-        If the value is not a rig, or if the study file is invalid.
-    """
-    return _read(value, where, oscillator_alone=True)
-
-
 def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:
     """Return one or several rigs by their names. Several rigs are a list or a mapping from names.
-
-    Each has one mass.
 
     Returns
     -------
@@ -119,23 +93,8 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     Raises
     ------
     InputError
-        If there are no rigs, or if one of them is not a rig, or has an assembly.
+        If there are no rigs, or if one of them is not a rig.
     """
-    read = _each_rig(rigs, where, oscillator_alone)
-    for place, rig in read.values():
-        one_mass_only(rig.system, place)
-    return {name: rig for name, (_, rig) in read.items()}
-
-
-def as_rigs_of_any_masses(
-    rigs: Any, where: str = "rigs", oscillator_alone: bool = False
-) -> dict[str, Rig]:
-    """Do what `as_rigs` does, also for rigs with an assembly."""
-    return {name: rig for name, (_, rig) in _each_rig(rigs, where, oscillator_alone).items()}
-
-
-def _each_rig(rigs: Any, where: str, oscillator_alone: bool) -> dict[str, tuple[str, Rig]]:
-    """Return the place of each rig in messages, and the rig, by names."""
     alone = is_one_rig(rigs) or not (is_list(rigs) or isinstance(rigs, Mapping))
     if isinstance(rigs, Mapping):
         items = [(str(name), rig) for name, rig in rigs.items()]
@@ -149,11 +108,11 @@ def _each_rig(rigs: Any, where: str, oscillator_alone: bool) -> dict[str, tuple[
     for i, (name, item) in enumerate(items):
         place = where if alone else f"{where}[{name or i}]"
         rig = _read(item, place, oscillator_alone)
-        read.append((name or rig.name or str(i), (place, rig)))
+        read.append((name or rig.name or str(i), rig))
     # As of two study files of one name in two folders.
     counts = Counter(name for name, _ in read)
     return {
-        f"{name} ({i})" if counts[name] > 1 else name: one for i, (name, one) in enumerate(read)
+        f"{name} ({i})" if counts[name] > 1 else name: rig for i, (name, rig) in enumerate(read)
     }
 
 

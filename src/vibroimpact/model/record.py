@@ -338,13 +338,7 @@ class Record:
 
 
 def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDArray[np.float64]:
-    """Return read-only numbers in SI units.
-
-    Raises
-    ------
-    InputError
-        If one is not finite, or there are too few.
-    """
+    """Return read-only numbers in SI units, which must be finite, and at least so many."""
     if hasattr(values, "magnitude"):
         unit = to_si(1.0 * values.units, quantity, field)
         values = np.asarray(values.magnitude, dtype=float) * unit

@@ -186,10 +186,7 @@ def _of_peak(channel: Channel) -> str | None:
 def _check_peaks(channel: Channel, unit: str, factor: float, quantity: Quantity, path: str) -> None:
     """Compare the stated peaks with the values, as they are and without their mean.
 
-    Raises
-    ------
-    InputError
-        If they differ by more than rounding.
+    They may differ by rounding.
     """
     if quantity is not ACCELERATION or unit == NONE:
         return

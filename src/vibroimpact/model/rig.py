@@ -396,13 +396,7 @@ def _misplaced(value: object) -> str:
 
 
 def one_mass_only(system: System, where: str = "rig") -> Oscillator:
-    """Return the oscillator of a function that accepts only one mass.
-
-    Raises
-    ------
-    InputError
-        If the system is an assembly.
-    """
+    """Return the oscillator of a function that accepts only one mass."""
     if not isinstance(system, Oscillator):
         raise InputError(
             f"{where}: an Assembly of several masses is not accepted by this function; pass a Rig "
@@ -412,13 +406,7 @@ def one_mass_only(system: System, where: str = "rig") -> Oscillator:
 
 
 def several_masses_only(system: System, where: str = "rig") -> Assembly:
-    """Return the assembly of a function that accepts only several masses.
-
-    Raises
-    ------
-    InputError
-        If the system is an oscillator.
-    """
+    """Return the assembly of a function that accepts only several masses."""
     if not isinstance(system, Assembly):
         raise InputError(f"{where}: an Oscillator has one mass; pass an Assembly")
     return system

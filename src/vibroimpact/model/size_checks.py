@@ -11,10 +11,7 @@ SMALLEST, LARGEST = 1e-100, 1e100
 def check_size(value: object, number: float, smallest: float = 0.0) -> float:
     """Return a number whose size is accepted. `value` is shown in the error message.
 
-    Raises
-    ------
-    InputError
-        If the absolute value is greater than `LARGEST` or less than `smallest`.
+    Its absolute value is at most `LARGEST`, and at least `smallest`.
     """
     if not smallest <= abs(number) <= LARGEST:
         wrong = "small; pass at least" if abs(number) < smallest else "large; pass at most"

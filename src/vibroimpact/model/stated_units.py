@@ -25,13 +25,7 @@ def has_unit(value: object) -> bool:
 
 
 def check_no_units(table: Mapping[str, Any]) -> None:
-    """Refuse values with a unit in the table of a system without units.
-
-    Raises
-    ------
-    InputError
-        If there is one.
-    """
+    """Refuse values with a unit in the table of a system without units."""
     for path, value in values_of(table):
         if has_unit(value):
             raise InputError(

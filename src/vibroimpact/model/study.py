@@ -242,8 +242,6 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
 
     Parameters
     ----------
-    path
-        Path of the file.
     kind
         Class of the study, which determines the tables that are read.
 
@@ -292,11 +290,5 @@ def _deeper(data: Any, levels: int) -> bool:
 
 
 def read_rig_study(path: Path) -> Rig:
-    """Read the rig of a study file.
-
-    Raises
-    ------
-    InputError
-        As in `read_study` and `RigStudy.rig`.
-    """
+    """Read the rig of a study file."""
     return read_study(path, RigStudy).rig(path)

@@ -99,10 +99,7 @@ class System(Model):
     def _acted_on_by(self, shaking: Repeated) -> Repeated:
         """Return a periodic excitation with the mass on which a force acts.
 
-        Raises
-        ------
-        InputError
-            If a force on one of several masses does not state which, or if there is no such mass.
+        A force on one of several masses must state which.
         """
 
     def _picture(self) -> str:

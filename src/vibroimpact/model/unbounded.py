@@ -33,8 +33,6 @@ def grows(rig: Rig, frequency: float, within: float) -> int:
 
     Parameters
     ----------
-    rig
-        The rig.
     frequency
         Forcing frequency (Hz).
     within

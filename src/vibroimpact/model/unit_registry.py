@@ -70,13 +70,7 @@ def with_unit(number: Decimal, rest: str) -> Any:
 
 
 def check_used(rest: str) -> None:
-    """Raise an error if a text contains a unit that only pint accepts.
-
-    Raises
-    ------
-    RefusalError
-        If there is such a unit.
-    """
+    """Raise an error if a text contains a unit that only pint accepts."""
     registry = _registry()
     for name in _NAMES_IN.findall(rest):
         # pint takes the first of several readings. It finds none for a sign such as °.

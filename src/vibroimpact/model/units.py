@@ -122,12 +122,9 @@ def one_of(
     above: float | None = None,
     minimum: float | None = None,
 ) -> tuple[float, Quantity]:
-    """Convert a value that may be one of several quantities. A plain number is the first of them.
+    """Convert a value that may be one of several quantities, and return it with its quantity.
 
-    Returns
-    -------
-    tuple
-        The value in SI units, and its quantity.
+    A plain number is the first of them.
 
     Raises
     ------
@@ -266,18 +263,9 @@ def plain(value: float, digits: int = 6) -> str:
 
 
 def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
-    """Write a value with a unit of fitting size, such as mm or kN/m.
+    """Write a value in SI units with a unit of fitting size, such as mm or kN/m.
 
-    `to_si` can read this text, with the precision of its digits.
-
-    Parameters
-    ----------
-    value
-        Value in SI units.
-    quantity
-        Quantity of the value.
-    digits
-        Number of significant digits.
+    `to_si` can read this text, with the precision of its significant digits.
 
     Returns
     -------

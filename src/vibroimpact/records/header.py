@@ -39,12 +39,10 @@ def check_stated(file: File, at: int, count: int, what: str = "values") -> int:
 def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[Peak, ...]:
     """Return a stated peak, or nothing if it is 0, as networks write an unknown peak.
 
+    Lines are counted from 0.
+
     Parameters
     ----------
-    at
-        Its line, starting from 0.
-    number
-        The number as it is written.
     unit
         Its unit. None if it has the unit of the values.
     text
@@ -60,14 +58,7 @@ def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[P
 def step_conflict(at: int, text: str, stated: float, other: float, source: str) -> str:
     """Return why a stated step (s) contradicts one of another source, or an empty string.
 
-    Parameters
-    ----------
-    at, text
-        Line of the statement, starting from 0, and the statement as it is shown.
-    stated, other
-        Both steps.
-    source
-        Source of the other one, such as ``"the times"``.
+    `text` is the statement as shown, and `source` that of the other step, such as "the times".
     """
     if same(other, stated):
         return ""
@@ -80,13 +71,7 @@ def step_conflict(at: int, text: str, stated: float, other: float, source: str) 
 def duration_conflict(at: int, number: str, text: str, count: int, step: float) -> str:
     """Return why a stated duration (s) contradicts the values, or an empty string.
 
-    Parameters
-    ----------
-    at, number, text
-        Line of the statement, starting from 0, its number and the statement as it is shown.
-        Networks write 0 for an unknown duration.
-    count, step
-        Number of the values and their step (s).
+    `text` is the statement as it is shown. Networks write 0 for an unknown duration.
     """
     if float(number) == 0.0:
         return ""

@@ -108,13 +108,7 @@ def read_channel(
 
 
 def _undamaged(file: File, channel: Channel) -> Channel:
-    """Return a channel that can be used.
-
-    Raises
-    ------
-    InputError
-        If it cannot.
-    """
+    """Return a channel that can be used."""
     if channel.damage:
         raise InputError(f"record: {file.path!r}, {channel.damage}")
     return channel

@@ -70,13 +70,7 @@ def _read(file: File, kind: str) -> list[Channel]:
 
 
 def _whole(file: File) -> None:
-    """See to it that a miniSEED file ends with a record.
-
-    Raises
-    ------
-    InputError
-        If it ends within one.
-    """
+    """Refuse a miniSEED file that ends within a record."""
     from obspy.io.mseed.util import get_record_information
 
     at, size = 0, len(file.data)
@@ -95,13 +89,7 @@ def _whole(file: File) -> None:
 
 
 def _merged(file: File, stream: Any) -> Any:
-    """Traces of one channel as one.
-
-    Raises
-    ------
-    InputError
-        If there are gaps between them, or they overlap and differ.
-    """
+    """Return traces of one channel as one; they have no gaps, and agree where they overlap."""
     for trace in [one for one in stream if not len(one.data)]:
         stream.remove(trace)
     if not len(stream):

@@ -65,10 +65,7 @@ def free_transmitted_excursion(
     K u + C u̇ has the amplitude √(K² + C²ω²) X. If the base moves, it is M times the absolute
     acceleration.
 
-    Parameters
-    ----------
-    swing, acceleration
-        Excursions of `free_flight_excursions`.
+    `swing` and `acceleration` are the excursions of `free_flight_excursions`.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     if shaken.moves_base:
@@ -93,6 +90,12 @@ def exciting_excursion(rig: Rig, frequencies: _Array) -> _Array:
     sizes = shaken.acceleration(mass, 1.0)
     wave = float(np.ptp(extremes(_turned(shaken, sizes[np.newaxis]))))
     return np.asarray(wave * (omega**2 if shaken.grows_with_frequency else np.ones_like(omega)))
+
+
+def exciting_force(rig: Rig) -> float:
+    """Excursion of the exciting force (N)."""
+    frequency = np.array([rig.periodic.frequency])
+    return rig.oscillator.mass * float(exciting_excursion(rig, frequency)[0])
 
 
 def reference_excursions(rig: Rig) -> tuple[float, float]:

@@ -37,13 +37,7 @@ _Array = NDArray[np.float64]
 
 
 def check_laws(assembly: Assembly) -> None:
-    """Raise an error if an assembly has more parts than a motion of the engine has room for.
-
-    Raises
-    ------
-    InputError
-        If a contact mode has too few bits, or a state too few numbers.
-    """
+    """Raise an error if an assembly has more parts than a motion of the engine has room for."""
     rows = _rows(assembly)
     stops, curved = len(assembly.stops), len(rows) - len(assembly.stops)
     if (count := bits(rows)) > layout.MOST_STOPS:
@@ -63,10 +57,7 @@ def check_laws(assembly: Assembly) -> None:
 def check_size(assembly: Assembly) -> None:
     """Raise an error if an assembly has more parts than the engine's maps have room for.
 
-    Raises
-    ------
-    InputError
-        If so; `simulate` has no such limit.
+    `simulate` has no such limit.
     """
     links = len(link_parts(assembly))
     parts = 2 * len(assembly.names) + len(assembly.stops) + links

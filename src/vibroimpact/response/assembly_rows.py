@@ -24,19 +24,7 @@ _Array = NDArray[np.float64]
 def check_alike(systems: Mapping[str, System], field: str, *parts: str) -> None:
     """Raise an error unless all are assemblies with parts of the same names.
 
-    Parameters
-    ----------
-    systems
-        What vibrates, by the names of the rigs.
-    field
-        Name of the argument in messages.
-    parts
-        ``"mass"``, ``"link"`` and ``"stop"``, as far as they have to agree.
-
-    Raises
-    ------
-    InputError
-        If one of them differs from the first.
+    `field` is the argument in messages, and `parts` are "mass", "link" and "stop".
     """
     first = next(iter(systems.values()))
     for name, one in systems.items():

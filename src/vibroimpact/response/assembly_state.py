@@ -64,19 +64,8 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
 
 def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> AssemblyState:
     """Return an engine's state at a forcing phase as a state by names."""
-    n, stops = len(assembly.names), list(assembly.stops)
-    u = vector[FIRST : FIRST + n]
-    v = vector[FIRST + n : FIRST + 2 * n]
-    d = np.maximum(vector[FIRST + 2 * n :][: len(stops)], 0.0)
-    mode = int(vector[MODE])
-    return AssemblyState(
-        displacement=dict(zip(assembly.names, u.tolist(), strict=True)),
-        velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
-        deformation=dict(zip(stops, d.tolist(), strict=True)),
-        touching=[name for f, name in enumerate(stops) if mode >> f & 1],
-        memory={name: float(vector[place]) for name, place in memory_places(assembly).items()},
-        phase=phase,
-    )
+    components = state_components(assembly, vector, phase).tolist()
+    return _state_of(dict(zip(component_names(assembly), components, strict=True)), phase)
 
 
 def as_assembly_state(start: Any, assembly: Assembly) -> AssemblyState:
@@ -117,13 +106,18 @@ def _from_components(start: xr.DataArray, assembly: Assembly) -> AssemblyState:
             else f"it has no {next(one for one in wanted if one not in components)!r}"
         )
         raise InputError(f"start: {what}; pass a state of the same masses and stops")
+    return _state_of(components, components["phase"])
+
+
+def _state_of(components: dict[str, float], phase: float) -> AssemblyState:
+    """Return the state with these components, but with another way to write its phase."""
     values: dict[str, dict[str, float]] = {part: {} for part in _PARTS}
     for name, value in components.items():
         if name != "phase":
             part, _, of = name.partition(".")
             values[part][of] = value
     touching = [name for name, value in values.pop("touching").items() if value]
-    return AssemblyState(**values, phase=components["phase"], touching=touching)
+    return AssemblyState(**values, phase=phase, touching=touching)
 
 
 def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:

@@ -46,17 +46,7 @@ class _Step(NamedTuple):
 
 
 def confirm_jumps(rig: AnyRig, data: xr.Dataset, features: Features) -> Features:
-    """Keep the jumps that are certain; move to `Features.steep` what may be a smooth step.
-
-    Parameters
-    ----------
-    rig
-        The rig of an oscillator that was swept.
-    data
-        Its sweep.
-    features
-        What `resonance.features` found in it.
-    """
+    """Keep the jumps that are certain; move to `Features.steep` what may be a smooth step."""
     ends = set[Place]().union(*(one.jumps for one in features.hysteresis))
     kinds = [
         "jump" if one[:3] in ends else _kind(rig, data, one[:3], one.settled, [(one.by, None)])
@@ -67,15 +57,7 @@ def confirm_jumps(rig: AnyRig, data: xr.Dataset, features: Features) -> Features
 
 
 def confirmed_mass_jumps(rig: AnyRig, data: xr.Dataset) -> MassJumps:
-    """Find the jumps in a sweep of several masses, and the steps that may be smooth.
-
-    Parameters
-    ----------
-    rig
-        The rig with an assembly that was swept.
-    data
-        Its sweep.
-    """
+    """Find the jumps in a sweep of several masses, and the steps that may be smooth."""
     steps = mass_steps(data)
     kinds = [
         "jump"

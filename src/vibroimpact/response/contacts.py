@@ -77,12 +77,7 @@ def contact_log(
 ) -> xr.Dataset:
     """List the contacts of a motion whose phases were measured.
 
-    Parameters
-    ----------
-    motion, origin, all_phases
-        The motion, its origin, and its phases.
-    share
-        As ``grazing`` of `contacts`.
+    `share` is ``grazing`` of `contacts`.
     """
     stops = range(len(all_phases.stops))
     every_kind = [_impacts(all_phases), *(_lasting(all_phases, origin, stop) for stop in stops)]

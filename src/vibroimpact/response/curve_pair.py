@@ -14,6 +14,7 @@ from vibroimpact.errors import InputError
 Array: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 Direction: TypeAlias = Literal["forward", "backward"]
+DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 _FIELDS = ("eta_a", "eta_d", "motion", "period")
 _CONTACT = ("impacts", "peak_force")
@@ -84,8 +85,7 @@ def judged(data: xr.Dataset, kind: str) -> str | None:
 
 def _of_measured(data: xr.Dataset) -> Swept:
     """Arrays of measured curves: the mean of what was held more than once."""
-    known: tuple[Direction, ...] = ("forward", "backward")
-    directions = tuple(d for d in known if d in data["direction"].values)
+    directions = directions_of(data)
     one = data.sel(direction=list(directions))
     one = one.mean("repeat") if "repeat" in one.dims else one
     curves = {}
@@ -129,11 +129,15 @@ def as_rigs(data: xr.Dataset) -> xr.Dataset:
     return data.expand_dims("rig")
 
 
+def directions_of(data: xr.Dataset) -> tuple[Direction, ...]:
+    """The directions of a dataset, forward first."""
+    return tuple(one for one in DIRECTIONS if one in data["direction"].values)
+
+
 def each_swept(data: xr.Dataset) -> Iterator[Swept]:
     """Arrays of each rig of `sweeps`, one after the other."""
     present = [str(d) for d in data["direction"].values]
-    known: tuple[Direction, ...] = ("forward", "backward")
-    directions = tuple(d for d in known if d in present)
+    directions = directions_of(data)
     order = [present.index(d) for d in directions]
     a, d, motion, period, contact = (
         one.transpose("rig", "direction", "frequency").values[:, order]

@@ -46,8 +46,6 @@ _SIGNS = {"right": 1, "left": -1}
 _SIDES = {sign: side for side, sign in _SIGNS.items()}
 _IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
-_TOUCHED = {(False, False): 0, (True, False): 1, (False, True): -1, (True, True): 2}
-"""The same by whether the right and the left stop are touched."""
 
 
 def oscillator_numbers(oscillator: Oscillator, shaking: Repeated | Record) -> NDArray[np.float64]:
@@ -342,5 +340,5 @@ def _state_of(names: Sequence[str], values: Sequence[float]) -> State:
     touching = [parts.pop(name) for side in _SIGNS if (name := f"touching.{side}") in parts]
     if len(touching) == len(_SIGNS):  # else the contact is deduced
         right, left = touching
-        parts["contact"] = _TOUCHED[bool(right), bool(left)]
+        parts["contact"] = CONTACTS[bool(right) + 2 * bool(left)]
     return State(**parts, deformation=deformation)

@@ -79,8 +79,6 @@ def transmitted(
 
     Parameters
     ----------
-    variables
-        Those of `sampled` and `listed`.
     force, event_force
         Force F(t) on the mass (N) at the samples and at the events; 0 if the base moves.
     """
@@ -139,14 +137,7 @@ def sampled_by_mass(
 ) -> dict[str, Any]:
     """Return the samples of an assembly by mass and stop, and the force on the base (N).
 
-    Parameters
-    ----------
-    out
-        What the engine wrote down.
-    assembly
-        The assembly.
-    force, on
-        Force at the samples on a mass (N), and the name of the mass; None if the base moves.
+    `force` acts on the mass `on` at the samples; None if the base moves.
     """
     n, stops = len(assembly.names), len(assembly.stops)
     variables: dict[str, Any] = {

@@ -183,16 +183,10 @@ def sweep_holds(
 
     Parameters
     ----------
-    vector
-        The rig as the engine reads it.
-    amplitudes, frequencies
-        Of each hold.
     phase
         Of the section (rad).
     state
         The state at which the first hold begins, as the engine's vector. It is not changed.
-    settling
-        How long to wait for a steady motion.
     tally
         Counts the holds that are done and stops them. Default: none.
     transient

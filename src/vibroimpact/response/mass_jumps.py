@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from vibroimpact.response.curve_pair import Direction, Swept
+from vibroimpact.response.curve_pair import Direction, Swept, directions_of
 from vibroimpact.response.resonance import Place, hysteresis, jumps_beside, share_of_change
 
 _OF_MASSES = {"eta_a": "peak_acceleration", "eta_d": "peak_displacement"}
@@ -53,15 +53,8 @@ class MassSteps(NamedTuple):
 
 
 def mass_steps(data: xr.Dataset) -> MassSteps:
-    """Find what `resonance.jumps` finds in the largest values of each mass.
-
-    Parameters
-    ----------
-    data
-        Dataset of a sweep of an assembly.
-    """
-    known: tuple[Direction, ...] = ("forward", "backward")
-    directions = tuple(one for one in known if one in data["direction"].values)
+    """Find what `resonance.jumps_beside` finds in the largest values of each mass."""
+    directions = directions_of(data)
     swept = data.sel(direction=list(directions)).transpose("direction", "frequency", ...)
     periodic = swept["motion"].values == "periodic"
     touching = (swept["peak_force"] > 0.0).any("stop").values

@@ -65,13 +65,7 @@ class Origin(NamedTuple):
 
     @property
     def repeated(self) -> Repeated:
-        """The shaking, if it is not a record.
-
-        Raises
-        ------
-        InputError
-            If it is.
-        """
+        """The shaking, which must not be a record."""
         if isinstance(self.shaking, Record):
             raise InputError(
                 "motion: this is the response to a Record, which has no cycles; pass a motion "
@@ -106,16 +100,8 @@ class PartColumns:
 class Phases(PartColumns):
     """Phases of a motion, in the order of time.
 
-    Parameters
-    ----------
-    system
-        What vibrates.
-    followed
-        Its motion.
-    begin, final : ndarray
-        The engine's states at its begin and at its end.
-    notes
-        Doubt about whether they are those of the recorded motion.
+    `begin` and `final` are the engine's states at the ends of the motion. `notes` doubt that it is
+    the recorded one.
     """
 
     def __init__(
@@ -159,8 +145,6 @@ def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False)
 
     Parameters
     ----------
-    motion
-        The dataset.
     masses, records
         Whether the motion of several masses, and a motion through a `Record`, are accepted.
 
@@ -378,12 +362,7 @@ def phases(motion: xr.Dataset, origin: Origin) -> Phases:
 def fourier_integrals(motion: xr.Dataset, origin: Origin, rates: _Array) -> NDArray[np.complex128]:
     """Return the integrals of a periodic motion over its length times exp(−iνt).
 
-    Parameters
-    ----------
-    motion, origin
-        The motion and its origin.
-    rates
-        ν (1/s).
+    `rates` are ν in 1/s.
 
     Returns
     -------

@@ -65,12 +65,7 @@ class OutputFormula(NamedTuple):
     def value(self, time: _Value, values: Mapping[str, Any]) -> float:
         """Return the number.
 
-        Parameters
-        ----------
-        time
-            Times of the samples (s), of which `mean`, `rms` and `integral` need the spacing.
-        values
-            Values of the names, in SI units.
+        Values of names are in SI units; `time` (s) holds the samples of time histories.
 
         Raises
         ------
@@ -94,8 +89,6 @@ def read_output_formula(
 
     Parameters
     ----------
-    text
-        The formula, such as ``"mean(isolator.damping*velocity**2)"``.
     histories, parameters
         Names of the time histories and parameters that the rig has.
 

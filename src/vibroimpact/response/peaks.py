@@ -6,9 +6,8 @@ from itertools import takewhile
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
-import xarray as xr
 
-from vibroimpact.response.curve_pair import Array, Direction, Swept, swept
+from vibroimpact.response.curve_pair import Array, Direction, Swept
 
 PROMINENCE = 0.02
 """Least prominence of a peak, as a share of its height.
@@ -43,27 +42,11 @@ class Peak(NamedTuple):
     """The curve still rises at the end of the range: the resonance lies beyond it."""
 
 
-def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[Peak, ...]:
+def peaks(both: Swept, *, prominence: float = PROMINENCE) -> tuple[Peak, ...]:
     """Find the maxima of η_a and η_d of each direction, by frequency.
 
-    Parameters
-    ----------
-    data
-        Dataset of a sweep.
-    prominence
-        See `PROMINENCE`.
-
-    Returns
-    -------
-    tuple of Peak
-        The highest point of each curve is always among them.
-
-    Raises
-    ------
-    InputError
-        If the dataset is not that of a sweep of one rig.
+    The highest point of each curve is always among them. For `prominence`, see `PROMINENCE`.
     """
-    both = data if isinstance(data, Swept) else swept(data)
     maxima: list[Peak] = []
     for k, direction in enumerate(both.directions):
         for name in CURVES:

@@ -52,8 +52,6 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None) -> list[str]:
 
     Parameters
     ----------
-    rig
-        The rig and its shaking.
     displacement
         Displacements of its motion (m), if they are known. Values that are not finite are ignored.
 
@@ -105,12 +103,7 @@ def _doubt_gaps(rig: Rig, displacement: ArrayLike | None) -> list[str]:
 def doubt_frequency(rig: Rig, field: str) -> None:
     """Issue a warning if a forcing frequency in Hz was probably in revolutions per minute.
 
-    Parameters
-    ----------
-    rig
-        The rig, at this frequency.
-    field
-        Name of the frequency in the warning.
+    `field` is the name of the frequency in the warning.
     """
     system, forced = rig.system, rig.periodic.frequency
     # Of several masses, the highest natural frequency is compared.
@@ -151,12 +144,7 @@ def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
     Only where a law of the rig is not linear: elsewhere the motion is known in closed form, however
     fast it is.
 
-    Parameters
-    ----------
-    rig
-        The rig.
-    frequency
-        The lowest forcing frequency (Hz).
+    `frequency` is the lowest forcing frequency (Hz).
 
     Returns
     -------

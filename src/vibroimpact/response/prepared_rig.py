@@ -72,21 +72,8 @@ class PreparedRig(NamedTuple):
     ) -> tuple[HoldRows, _Array]:
         """Hold the frequency until the motion has settled; Ctrl-C ends it.
 
-        Parameters
-        ----------
-        state
-            Where the motion begins.
-        settling
-            How long to wait.
-        progress
-            Called with the cycles done and ``settling.max_cycles``.
-
-        Returns
-        -------
-        row : HoldRows
-            What was measured.
-        reached : ndarray
-            The state at the end.
+        Return what was measured and the state at the end. Progress counts up to the largest number
+        of cycles of `settling`.
         """
         pairs: list[tuple[HoldRows, _Array]] = []
         shaking = self.shaking
@@ -117,14 +104,10 @@ class PreparedRig(NamedTuple):
         ----------
         state
             Where the motion begins; it becomes the state at the end.
-        cycles
-            How many rows.
         max_events
             Contacts and releases in one forcing cycle at which the motion is given up.
         transient, discard
             Cycles before the first row, without and with perturbations.
-        progress
-            Called now and then with the cycles done and all there are.
 
         Returns
         -------

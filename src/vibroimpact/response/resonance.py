@@ -195,7 +195,7 @@ def features(
     InputError
         If the dataset is not that of a sweep of one rig.
     """
-    both = _arrays(data)
+    both = data if isinstance(data, Swept) else swept(data)
     apart_by = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
     return Features(
         peaks(both, prominence=prominence),
@@ -207,28 +207,13 @@ def features(
 
 
 def hysteresis(
-    data: xr.Dataset | Swept, *, apart: float = APART, unsettled_apart: float = UNSETTLED_APART
+    both: Swept, *, apart: float = APART, unsettled_apart: float = UNSETTLED_APART
 ) -> tuple[Hysteresis, ...]:
-    """Find the ranges in which forward and backward sweep follow different motions.
+    """Find the ranges in which forward and backward sweep follow different motions, by frequency.
 
-    Parameters
-    ----------
-    data
-        Dataset of a sweep. With one direction there is nothing to compare.
-    apart, unsettled_apart
-        See `APART` and `UNSETTLED_APART`; either η_a or η_d has to differ.
-
-    Returns
-    -------
-    tuple of Hysteresis
-        By frequency. A range that changes its side in both η_a and η_d at once is two ranges.
-
-    Raises
-    ------
-    InputError
-        If the dataset is not that of a sweep of one rig.
+    Either η_a or η_d has to differ (see `APART` and `UNSETTLED_APART`). A range that changes its
+    side in both at once is two ranges. With one direction there is nothing to compare.
     """
-    both = _arrays(data)
     if len(both.directions) < 2:
         return ()
     a, d = _relative(*both.eta_a), _relative(*both.eta_d)
@@ -258,60 +243,14 @@ def hysteresis(
     return tuple(loops)
 
 
-def jumps(
-    data: xr.Dataset | Swept,
-    *,
-    apart: float = APART,
-    unsettled_apart: float = UNSETTLED_APART,
-    step: float = STEP,
-) -> tuple[Jump, ...]:
-    """Find the jumps of each direction: the ends of hysteresis, and breaks in the curve itself.
-
-    Parameters
-    ----------
-    data
-        Dataset of a sweep, in one direction or both.
-    apart, unsettled_apart
-        See `APART` and `UNSETTLED_APART`. A break in a curve has to be so large, too.
-    step
-        See `STEP`.
-
-    Returns
-    -------
-    tuple of Jump
-        Those of each direction in the order of its sweep.
-
-    Raises
-    ------
-    InputError
-        If the dataset is not that of a sweep of one rig.
-    """
-    both = _arrays(data)
-    loops = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
-    return jumps_beside(loops, both, apart, unsettled_apart, step)
-
-
-def ranges(data: xr.Dataset | Swept, where: xr.DataArray | Flags) -> tuple[Range, ...]:
-    """Find the runs of neighbouring frequencies, in each direction, at which `where` is true.
-
-    As an array it has the dims direction (forward first) and frequency.
-    """
-    both = _arrays(data)
-    flags: Flags = (
-        where.sel(direction=list(both.directions)).transpose(..., "frequency").values
-        if isinstance(where, xr.DataArray)
-        else where
-    )
+def ranges(both: Swept, flags: Flags) -> tuple[Range, ...]:
+    """Find the runs of neighbouring frequencies, in each direction, at which `flags` are true."""
     frequency = both.frequency
     return tuple(
         Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
         for direction, true in zip(both.directions, flags, strict=True)
         for first, last in runs(true)
     )
-
-
-def _arrays(data: xr.Dataset | Swept) -> Swept:
-    return data if isinstance(data, Swept) else swept(data)
 
 
 def jumps_beside(
@@ -321,7 +260,11 @@ def jumps_beside(
     unsettled_apart: float = UNSETTLED_APART,
     step: float = STEP,
 ) -> tuple[Jump, ...]:
-    """Do what `jumps` does where the hysteresis is known."""
+    """Find the jumps of each direction: the ends of hysteresis, and breaks in the curve itself.
+
+    Those of each direction come in the order of its sweep. A break has to be larger than `apart` or
+    `unsettled_apart` (see `APART` and `UNSETTLED_APART`), and than `step` (see `STEP`).
+    """
     places = {
         direction: _breaks(both, k, apart, unsettled_apart, step)
         for k, direction in enumerate(both.directions)

@@ -31,9 +31,10 @@ from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
-from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
+from vibroimpact.model.read_rig import AnyRig, as_rigs
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import check_alike
+from vibroimpact.response.curve_pair import DIRECTIONS
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, read_outputs
@@ -43,8 +44,6 @@ from vibroimpact.response.sweep_dataset import sweep_dataset
 from vibroimpact.response.sweep_outputs import add_sweep_outputs
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, each
-
-DIRECTIONS = ("forward", "backward")
 
 
 @public
@@ -191,7 +190,7 @@ def sweeps(
     InputError
         If a value is invalid.
     """
-    named = periodic_rigs(rigs, any_masses=True)
+    named = periodic_rigs(rigs)
     systems = {name: rig.system for name, rig in named.items()}
     if any(one.by_mass for one in systems.values()):
         check_alike(systems, "rigs", "mass", "stop")
@@ -259,17 +258,15 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return read_rising(frequencies, FREQUENCY, "frequencies", above=0.0)
 
 
-def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:
+def periodic_rigs(rigs: Any) -> dict[str, Rig]:
     """Read one or several rigs, each with a periodic shaking, by their names.
-
-    ``any_masses`` accepts assemblies.
 
     Raises
     ------
     InputError
         If there is none, or one is invalid.
     """
-    named_rigs = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
+    named_rigs = as_rigs(rigs)
     for name, rig in named_rigs.items():
         as_periodic(rig.shaking, "shaking" if len(named_rigs) == 1 else f"rigs[{name}].shaking")
     return named_rigs

@@ -54,12 +54,10 @@ def add_sweep_outputs(
 ) -> None:
     """Add own outputs to the dataset of `sweeps`.
 
+    `own`, `rigs` and `levels` (amplitudes by frequency) are those of each rig.
+
     Parameters
     ----------
-    data
-        The dataset, with ``period`` and ``status``.
-    own, rigs, levels
-        Of each rig: the outputs, the rig, and its amplitudes by frequency.
     phase
         Phase of the forcing at the section (rad).
     states : ndarray, shape (rig, direction, frequency, ...)

@@ -9,8 +9,9 @@ import numpy as np
 
 from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.curve_pair import DIRECTIONS
 from vibroimpact.response.engine_system import engine_system
-from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
+from vibroimpact.response.sweep import check_frequencies, sweep
 
 
 def arrivals(

@@ -29,16 +29,12 @@ class WrittenMotion:
 
     Parameters
     ----------
-    system, shaking
-        What vibrates, and what shakes it.
     length
         Forcing cycles; for a record, the duration of the free vibration after it (s).
     phase
         Where a repeated forcing begins (rad).
     state : ndarray
         Where the motion begins; carried on.
-    samples, max_events
-        As in `simulate`.
     """
 
     def __init__(

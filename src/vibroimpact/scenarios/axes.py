@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_mapping, check_name
 from vibroimpact.errors import InputError, alternatives, unknown
 from vibroimpact.model import Harmonic
-from vibroimpact.model.derived_parameters import scale_of
+from vibroimpact.model.derived_parameters import largest_free_displacement
 from vibroimpact.model.excitation import Of
-from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameter_ranges import entries, field_of
 from vibroimpact.model.parameters import PARAMETERS, canonical, set_values, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
@@ -84,12 +83,7 @@ def logarithmic(values: _Array) -> bool:
 def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[Axis, Axis]:
     """Read the axes x and y of a map: parameters and values, and spacings that are not clear.
 
-    `of` is the quantity of amplitudes.
-
-    Raises
-    ------
-    InputError
-        If there are not two parameters that go together, or if a value or a spacing is invalid.
+    `of` is the quantity of amplitudes. The two parameters must go together.
     """
     grids = entries(vary, 2, 2)
     names = [_name(name, "vary") for name in grids]
@@ -140,13 +134,7 @@ def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) ->
 
 
 def check_pair(x: Axis, y: Axis) -> None:
-    """Refuse two axes of one quantity.
-
-    Raises
-    ------
-    InputError
-        If they do not go together.
-    """
+    """Refuse two axes of one quantity."""
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
             f"vary: {y.name!r} varies the same quantity as {x.name!r}; choose another parameter "
@@ -157,10 +145,7 @@ def check_pair(x: Axis, y: Axis) -> None:
 def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     """Check that one sine shakes a rig; its frequency is left open.
 
-    Raises
-    ------
-    InputError
-        If it is not one sine, or the mass has no spring.
+    The mass must have a spring.
     """
     oscillator = rig.oscillator
     shaken, _ = as_periodic(rig.shaking, where)
@@ -183,51 +168,41 @@ def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     return Rig.of_open_frequency(oscillator, open_sine, rig.name)
 
 
-def _peak(rig: Rig) -> float:
-    return peak_displacement(rig.oscillator, scale_of(rig))
+def rig_at(base: Rig, values: Mapping[str, float]) -> Rig:
+    """The rig at a node, whose other parameters are those of a base.
+
+    Parameters are set on both sides, where the stop has them, each as `PARAMETERS` does. If all of
+    them are dimensionless, the gap ratio is kept where it is not varied.
+
+    Raises
+    ------
+    InputError
+        If there is no stop to set, or the base has no dimensionless parameters.
+    """
+    _check_stops(base, values)
+    made = set_values(base, values)
+    physical = any(PARAMETERS[name].physical for name in values)
+    if physical or "gap_ratio" in values or "damping_ratio" not in values:
+        return made
+    grown = largest_free_displacement(made) / largest_free_displacement(base)
+    sides = {
+        side: stop.replace(gap=grown * stop.gap) for side, stop in made.oscillator.stops.items()
+    }
+    return made.with_parts(made.oscillator.replace(**sides))
 
 
-class Base(NamedTuple):
-    """The rig whose other parameters all nodes share."""
-
-    base: Rig
-
-    def rig(self, values: Mapping[str, float]) -> Rig:
-        """The rig at a node.
-
-        Parameters are set on both sides, where the stop has them, each as `PARAMETERS` does. If
-        all of them are dimensionless, the gap ratio is kept where it is not varied.
-
-        Raises
-        ------
-        InputError
-            If there is no stop to set, or the base has no dimensionless parameters.
-        """
-        self._check(values)
-        made = set_values(self.base, values)
-        physical = any(PARAMETERS[name].physical for name in values)
-        if physical or "gap_ratio" in values or "damping_ratio" not in values:
-            return made
-        grown = _peak(made) / _peak(self.base)
-        sides = {
-            side: stop.replace(gap=grown * stop.gap)
-            for side, stop in (("right", made.oscillator.right), ("left", made.oscillator.left))
-            if stop is not None
-        }
-        return made.with_parts(made.oscillator.replace(**sides))
-
-    def _check(self, values: Mapping[str, float]) -> None:
-        stops = self.base.oscillator.stops.values()
-        if not stops:
-            raise InputError("rig: there is no stop; pass a rig with one or two stops")
-        for name in values:
-            if name in _OF_BUMPERS and not any(stop.spring_and_dashpot for stop in stops):
-                raise InputError(
-                    f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
-                    "'gap_ratio', 'stops.restitution', 'amplitude' or 'damping_ratio' instead"
-                )
-            if name == "stops.restitution" and not PARAMETERS[name].numbers(self.base):
-                raise InputError(
-                    "rig: 'stops.restitution' applies to rigid stops and other laws that have it, "
-                    "but this rig has none; vary another parameter, or pass a rig with such a stop"
-                )
+def _check_stops(base: Rig, values: Mapping[str, float]) -> None:
+    stops = base.oscillator.stops.values()
+    if not stops:
+        raise InputError("rig: there is no stop; pass a rig with one or two stops")
+    for name in values:
+        if name in _OF_BUMPERS and not any(stop.spring_and_dashpot for stop in stops):
+            raise InputError(
+                f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
+                "'gap_ratio', 'stops.restitution', 'amplitude' or 'damping_ratio' instead"
+            )
+        if name == "stops.restitution" and not PARAMETERS[name].numbers(base):
+            raise InputError(
+                "rig: 'stops.restitution' applies to rigid stops and other laws that have it, "
+                "but this rig has none; vary another parameter, or pass a rig with such a stop"
+            )

@@ -20,7 +20,7 @@ from vibroimpact.model import Oscillator
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.sweep import sweep
-from vibroimpact.scenarios.axes import Base, one_sine
+from vibroimpact.scenarios.axes import one_sine, rig_at
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.map import map_workers
 from vibroimpact.scenarios.map_store import CREATED_BY
@@ -50,8 +50,6 @@ def jump_border(
 
     Parameters
     ----------
-    data
-        Dataset of `scenario_map`.
     lines
         At how many values of the other parameter, at most, the border is sought.
     threads
@@ -59,19 +57,12 @@ def jump_border(
         same for any number.
     where
         As for `scenario_map`; None for what that takes by itself for such a map.
-    progress
-        Called from the calling thread with the folds followed and their number.
 
     Returns
     -------
     xarray.Dataset
         Dim ``border_point``: the map's two parameters at each point, which is exact to the
         tolerance of the continuation. It has no points where the map shows no such border.
-
-    Raises
-    ------
-    InputError
-        If it is not a map, or ``where`` is invalid.
     """
     if data.attrs.get("created_by") != CREATED_BY:
         raise InputError("data: this is not a map; pass the result of scenario_map")
@@ -84,14 +75,15 @@ def jump_border(
         base = dict(settings["base"])
         oscillator = Oscillator.model_validate(base.pop("oscillator"))
         shaking = excitation_from(base, frequency=ANY_FREQUENCY)
-        start = Base(one_sine(Rig(oscillator, shaking), "data"))
+        start = one_sine(Rig(oscillator, shaking), "data")
         candidates = _beside(data, along, other)
         chosen = np.unique(np.linspace(0, len(candidates) - 1, lines).round().astype(int))
         nodes = [candidates[i] for i in chosen] if candidates else []
+        first_nodes = len(settings["x"]["values"]) * len(settings["y"]["values"])
         cusps = each(
             functools.partial(_cusp_beside, start, along, other),
             nodes,
-            threads=map_workers(_first_nodes(settings), threads, where),
+            threads=map_workers(first_nodes, threads, where),
             progress=progress,
         )
         points = [
@@ -104,11 +96,6 @@ def jump_border(
         }
     )
     return describe(border, "vibroimpact.scenarios.borders.jump_border", settings)
-
-
-def _first_nodes(settings: dict[str, Any]) -> int:
-    """Nodes of the map's first grid."""
-    return len(settings["x"]["values"]) * len(settings["y"]["values"])
 
 
 def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float]]:
@@ -128,11 +115,11 @@ def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float
 
 
 def _cusp_beside(
-    start: Base, along: str, other: str, node: tuple[float, float], _: Tally
+    start: Rig, along: str, other: str, node: tuple[float, float], _: Tally
 ) -> float | None:
     """Value of one parameter at the cusp beside a node of the map."""
     value, at = node
-    return _cusp(start.rig({other: at, along: value}), along, value)
+    return _cusp(rig_at(start, {other: at, along: value}), along, value)
 
 
 def _cusp(rig: Rig, along: str, value: float) -> float | None:

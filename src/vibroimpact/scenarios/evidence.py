@@ -10,7 +10,7 @@ resonance, no resonance of its own; it is told apart as the onset.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -145,10 +145,7 @@ class Evidence(NamedTuple):
     def extent(self, prominence: float) -> float:
         """Width of all left hystereses and non-regular resonances together, over f0.
 
-        Parameters
-        ----------
-        prominence
-            Least prominence of a non-regular resonance, as a share of its height.
+        `prominence` is the least of a non-regular resonance, as a share of its height.
         """
         spans = [item.ends for item in self.left]
         spans += [
@@ -167,12 +164,10 @@ class Evidence(NamedTuple):
 def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
     """What the sweep of one rig shows.
 
+    `data` is the dataset of its sweep in both directions.
+
     Parameters
     ----------
-    oscillator, shaken
-        The rig and what shakes it, at whatever frequency.
-    data
-        Dataset of its sweep in both directions.
     prominence
         Least prominence of peaks that are kept, as a share of their height.
 
@@ -181,14 +176,8 @@ def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
     InputError
         If the dataset is not that of the sweep of one rig in both directions.
     """
-    (features,) = each_evidence([rig], as_rigs(data), prominence)
-    return features
-
-
-def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> Iterator[Evidence]:
-    """What the sweep of each rig of `sweeps` shows, one after the other."""
-    for rig, curves in zip(rigs, each_curves(data), strict=True):
-        yield shown(rig, curves, prominence)
+    (curves,) = each_curves(as_rigs(data))
+    return shown(rig, curves, prominence)
 
 
 def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:

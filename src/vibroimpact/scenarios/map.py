@@ -19,7 +19,7 @@ from vibroimpact.model.argument_types import PositiveInt, Refinements, Share
 from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.scenarios.axes import Axis, Base, one_sine, read_axes
+from vibroimpact.scenarios.axes import Axis, one_sine, read_axes, rig_at
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store
 from vibroimpact.scenarios.sweep_frequencies import STEP
@@ -131,15 +131,15 @@ def scenario_map(
     InputError
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
-    start = _base(rig)
-    first, second = read_axes(vary, spacing, start.base.sine.of)
+    if rig is None:
+        rig = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
+    start = one_sine(as_rig(rig))
+    first, second = read_axes(vary, spacing, start.sine.of)
     used = checked(thresholds)
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
         "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
-        "base": {
-            **rig_parameters(start.base, "frequency", "phase"),
-        },
+        "base": rig_parameters(start, "frequency", "phase"),
         "step": step,
         "refine": refine,
         "thresholds": {name: getattr(used, name) for name in Thresholds.names()},
@@ -155,7 +155,7 @@ def scenario_map(
         )
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
-        start.rig({one.name: float(one.values[end]) for one in fine})
+        rig_at(start, {one.name: float(one.values[end]) for one in fine})
     plan = _Plan(
         fine,
         Nodes((len(fine[1].values), len(fine[0].values)), refine),
@@ -163,7 +163,7 @@ def scenario_map(
     )
 
     def compute(nodes: list[Node], tally: Tally) -> dict[str, NDArray[Any]]:
-        return classified([start.rig(one) for one in nodes], used, step, max_cycles, tally)
+        return classified([rig_at(start, one) for one in nodes], used, step, max_cycles, tally)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
         if not held.finished():
@@ -266,9 +266,3 @@ def _parallel(
     report = progress and (lambda done, _: progress(before + done // RIG, total))
     results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=report)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
-
-
-def _base(rig: AnyRig | None) -> Base:
-    if rig is None:
-        rig = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
-    return Base(one_sine(as_rig(rig)))

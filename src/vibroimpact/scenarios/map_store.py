@@ -121,8 +121,6 @@ def map_store(
         x and y, with the values of the finest grid.
     chunk
         Nodes along each side of a block.
-    levels
-        How many there are.
     parameters
         What the map is made from. A store with others is refused.
 

@@ -13,12 +13,12 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.curve_pair import Swept
+from vibroimpact.response.curve_pair import DIRECTIONS, Swept
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.scenarios.evidence import Evidence, Irregular, Kind
 from vibroimpact.scenarios.hidden_folds import hidden_stretches
-from vibroimpact.scenarios.resonance_curves import DIRECTIONS, Holds
+from vibroimpact.scenarios.resonance_curves import Holds
 from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.motion_exponents import judge_wandering
 from vibroimpact.stability.settled_motion import Settled

@@ -19,7 +19,14 @@ from vibroimpact.engine.status import NOT_SETTLED
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
+from vibroimpact.response.curve_pair import (
+    DIRECTIONS,
+    Array,
+    Direction,
+    Flags,
+    Swept,
+    each_swept,
+)
 from vibroimpact.response.engine_input import components, state_of
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
@@ -29,7 +36,6 @@ UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
 _TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
 """As of `sweeps`."""
-DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 
 class Curves(NamedTuple):

@@ -66,13 +66,7 @@ class Thresholds:
 
 
 def checked(thresholds: object) -> Thresholds:
-    """Return the thresholds to use; None gives the defaults.
-
-    Raises
-    ------
-    InputError
-        If it is something else.
-    """
+    """Return the thresholds to use; None gives the defaults."""
     if thresholds is None:
         return Thresholds()
     if not isinstance(thresholds, Thresholds):

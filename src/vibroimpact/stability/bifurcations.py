@@ -220,7 +220,7 @@ def _own_image(near: Orbit) -> Orbit | None:
         return None
     if not section.family.excitation.half_wave:
         return None
-    half, mode = section.simpler(section.count, mirror=True), near.mode
+    half, mode = section.with_map(section.count, mirror=True), near.mode
 
     def at(value: float) -> Orbit | None:
         point = near.point.copy()
@@ -316,12 +316,12 @@ def _locate(
     return nearest.orbit, nearest.arclength
 
 
-def own_mirror(orbit: Orbit, tolerance: float) -> bool:
+def own_mirror(orbit: Orbit) -> bool:
     """Whether an orbit is its own mirror image, half a period later."""
     section = orbit.section
     if not section.family.symmetric or section.count % 2 == 0:
         return False
-    return is_fixed(section.simpler(section.count, mirror=True), orbit, tolerance)
+    return is_fixed(section.with_map(section.count, mirror=True), orbit)
 
 
 def bifurcating_orbits(bifurcation: Bifurcation) -> Iterator[Station]:
@@ -331,9 +331,9 @@ def bifurcating_orbits(bifurcation: Bifurcation) -> Iterator[Station]:
     """
     section = bifurcation.orbit.section
     if bifurcation.kind == BREAKING and section.mirror:
-        target = section.full()
+        target = section.with_map(section.count, mirror=False)
     elif bifurcation.kind == DOUBLING:
-        target = section.times(2)
+        target = section.with_map(2 * section.count, mirror=section.mirror)
     else:
         return
     values, vectors = np.linalg.eig(bifurcation.orbit.carried.T)

@@ -13,7 +13,7 @@ from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine import orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
+from vibroimpact.response.analytic_free_response import exciting_force, reference_excursions
 from vibroimpact.response.hold_rows import results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
@@ -65,7 +65,7 @@ def as_dataset(
     multipliers = np.array([one.multipliers for one in orbits])
     values = {
         "arclength": [s.arclength for _, s in stations],
-        "period": [one.section.period for one in orbits],
+        "period": [one.section.count for one in orbits],
         "antisymmetric": [one.section.mirror for one in orbits],
         "stable": np.array(
             [-1 if s.critical else int(s.orbit.stable) for _, s in stations], dtype=np.int64
@@ -131,7 +131,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
             outputs,
             one.rig,
             one.section.family.layout.state(vector_of(one), one.section.family.phase),
-            one.section.period,
+            one.section.count,
         )
         for one in orbits
     ]
@@ -151,7 +151,7 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
         "arclength": [b.arclength for _, b in pairs],
         "turns": np.array([int(b.turns) for _, b in pairs], dtype=np.int64),
         "branch": np.array([i for i, _ in pairs], dtype=np.int64),
-        "period": np.array([b.orbit.section.period for _, b in pairs], dtype=np.int64),
+        "period": np.array([b.orbit.section.count for _, b in pairs], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in pairs], dtype=bool),
         "contacts": np.array([_contacts(b) for _, b in pairs], dtype=str),
     }
@@ -207,8 +207,8 @@ def _sizes(fam: Family, orbits: list[Orbit], rows: _Array, dim: str) -> dict[str
     variables = fam.layout.measured(rows, (dim,))
     if fam.of_several_masses:
         return variables
-    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
-    exciting = np.array([_exciting(one) for one in orbits])
+    free = np.array([reference_excursions(one.rig) for one in orbits]).reshape(-1, 2)
+    exciting = np.array([exciting_force(one.rig) for one in orbits])
     for name, of, scale in (
         ("eta_d", "displacement_excursion", free[:, 0]),
         ("eta_a", "acceleration_excursion", free[:, 1]),
@@ -227,7 +227,7 @@ def _measured(one: Orbit) -> _Array:
         one.section.family.phase,
         one.point,
         one.facts,
-        one.section.period,
+        one.section.count,
         2 * MAX_EVENTS,
         result,
     )
@@ -238,14 +238,3 @@ def _measured(one: Orbit) -> _Array:
             f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}"
         )
     return result
-
-
-def _exciting(one: Orbit) -> float:
-    """Excursion of the exciting force (N)."""
-    frequency = np.array([one.rig.periodic.frequency])
-    return one.rig.oscillator.mass * float(exciting_excursion(one.rig, frequency)[0])
-
-
-def _reference(one: Orbit) -> tuple[float, float]:
-    """Excursions of displacement and absolute acceleration that η is taken over."""
-    return reference_excursions(one.rig)

@@ -26,14 +26,6 @@ VARIABLES = tuple(one for one in QUANTITIES if "." not in one)
 
 
 def contact_counts(right: int, left: int, stops: tuple[object, object]) -> str:
-    """Write contacts per period, such as ``"2R 1L"``. A side without a stop is left out.
-
-    Parameters
-    ----------
-    right, left
-        Contacts on the two sides.
-    stops
-        The right and the left stop. None: the rig has no stop there.
-    """
+    """Write contacts per period, such as ``"2R 1L"``. A side without a stop is left out."""
     counts = ((right, "R", stops[0]), (left, "L", stops[1]))
     return " ".join(f"{count}{side}" for count, side, stop in counts if stop is not None)

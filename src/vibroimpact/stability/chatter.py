@@ -66,7 +66,7 @@ class Rested:
         point[VALUE] = here.value
         status, there = corrected(last.section, point, last.mode)
         seen = at_phase(there, here.section.family.phase) if status is Status.DONE else None
-        if seen is None or seen.section.period != here.section.period or not rests(seen):
+        if seen is None or seen.section.count != here.section.count or not rests(seen):
             return False
         away = here.section.scaled(seen.point - here.point)
         return bool(np.abs(away).max() <= _FIXED)
@@ -121,7 +121,7 @@ def _chatters(orbit: Orbit) -> list[_Array] | None:
     section = orbit.section
     system = section.family.system(orbit.value)
     phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])
-    events = np.empty(((section.period + 1) * MAX_EVENTS + 2, record_layout.EVENT))
+    events = np.empty(((section.count + 1) * MAX_EVENTS + 2, record_layout.EVENT))
     _, count, outcome = batch.trajectory(
         system,
         float(system[section_map.AMPLITUDE]),
@@ -129,7 +129,7 @@ def _chatters(orbit: Orbit) -> list[_Array] | None:
         phase,
         vector_of(orbit),
         0.0,
-        float(section.period),
+        float(section.count),
         0,
         MAX_EVENTS,
         np.empty((record_layout.SAMPLE, 0)),

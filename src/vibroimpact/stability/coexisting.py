@@ -31,7 +31,6 @@ from vibroimpact.stability.nearest_state import nearest_state, random_state
 from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
-    later,
     reach,
     reach_at_rest,
 )
@@ -250,7 +249,7 @@ def _at_phase(motion: Settled, excitation: Repeated, max_events: int) -> Settled
     there = motion.engine.at_phase(excitation.phase)
     if ahead == 0.0:
         return motion._replace(engine=there)
-    status, state = later(motion, motion.state, ahead, max_events)
+    status, state = motion.engine.propagate(motion.state, ahead, max_events)
     if status is not Status.DONE:
         return motion._replace(status=status)
     return motion._replace(state=state, engine=there)

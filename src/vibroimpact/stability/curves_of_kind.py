@@ -27,16 +27,12 @@ def curves_of_kind(
 ) -> dict[str, xr.Dataset]:
     """Find the bifurcations of one kind along the first parameter, and follow each over both.
 
+    Progress is called with the number of points so far.
+
     Parameters
     ----------
     rig
         The rig at one frequency, which does not matter if the first parameter is the frequency.
-    kind
-        Kind of bifurcation, such as "fold" or "period doubling".
-    vary
-        The first parameter and the other, each with its lowest and highest value.
-    progress
-        Called with the number of points so far.
 
     Returns
     -------

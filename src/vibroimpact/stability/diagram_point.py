@@ -96,7 +96,7 @@ def _looked_at(held: Held, look: Look) -> Seen:
         points, status = _impacts(motion, cycles, look.max_events)
     else:
         if not len(rows):
-            status, rows = _followed(motion, cycles, look.max_events)
+            status, rows = motion.engine.sections(motion.state.copy(), cycles, look.max_events)
         points = rows[:cycles, lyapunov.SECTION :]
     if status is not Status.DONE:
         return _nothing(held, look, status)
@@ -108,18 +108,14 @@ def _wandering(motion: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
     """As `judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
     for longer in (1, *LONGER):
-        status, rows = _followed(motion, longer * cycles, look.max_events, DISCARD)
+        status, rows = motion.engine.sections(
+            motion.state.copy(), longer * cycles, look.max_events, discard=DISCARD
+        )
         kind = judge_sections(motion, rows)
         weak = kind.motion == "undecided" and (kind.bounded or kind.exponents[0] > 0.0)
         if status is not Status.DONE or not weak:
             break
     return kind, rows, status
-
-
-def _followed(
-    motion: Settled, cycles: int, max_events: int, discard: int = 0
-) -> tuple[Status, _Array]:
-    return motion.engine.sections(motion.state.copy(), cycles, max_events, discard=discard)
 
 
 def _impacts(motion: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:

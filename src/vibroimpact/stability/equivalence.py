@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.settled_motion import Settled, later, reach, state_distance
+from vibroimpact.stability.settled_motion import Settled, reach, state_distance
 
 SAME = 1e-6
 """Two orbits are one if their points agree to this share of their size."""
@@ -21,7 +21,7 @@ _SEEN = 5000
 
 def image_of(motion: Settled, max_events: int) -> Settled | None:
     """The mirror image, half a cycle later; None if there is none, or a limit is met on the way."""
-    status, state = later(motion, motion.state, 0.5, max_events)
+    status, state = motion.engine.propagate(motion.state, 0.5, max_events)
     image = motion.states.mirror_image(state) if status is Status.DONE else None
     return None if image is None else motion._replace(state=image)
 
@@ -40,7 +40,7 @@ def same(one: Settled, other: Settled, max_events: int) -> bool:
         for _ in range(one.period):
             if state_distance(one, one.state, state, size) <= SAME:
                 return True
-            status, state = later(one, state, 1.0, max_events)
+            status, state = one.engine.propagate(state, 1.0, max_events)
             if status is not Status.DONE:
                 return False
         return False

@@ -129,7 +129,7 @@ def lyapunov_exponents(
     InputError
         If a value is invalid.
     """
-    named = periodic_rigs(rigs, any_masses=True)
+    named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     angle = to_si(phase, ANGLE, "phase")

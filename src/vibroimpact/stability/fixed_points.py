@@ -24,6 +24,8 @@ _Array = NDArray[np.float64]
 MAX_EVENTS = 1000
 
 _GRAZES = 1e-4
+_FIXED = 1e-9
+"""Of the scaled residual: so near to its image, a point is fixed."""
 
 _LINES = 12
 """Lines that are tried one after the other, each of which touches where the one before has led."""
@@ -48,7 +50,7 @@ class Section:
 
     family: Family
     count: int
-    """Forcing cycles; or half cycles, each followed by the mirror."""
+    """Forcing cycles; or half cycles, each followed by the mirror. The period of fixed points."""
     mirror: bool
     scale: _Array
     """Sizes of the parts of a state (of one mass u, u̇, u_R, u_L, z), and of the parameter."""
@@ -72,12 +74,7 @@ class Section:
         scaled_change: _Array = change / self.scale * self.seen
         return scaled_change
 
-    @property
-    def period(self) -> int:
-        """Of its fixed points, in forcing cycles."""
-        return self.count
-
-    def simpler(self, count: int, *, mirror: bool) -> Section:
+    def with_map(self, count: int, *, mirror: bool) -> Section:
         """Another map of the same rig."""
         return Section(self.family, count, mirror, self.scale)
 
@@ -90,20 +87,12 @@ class Section:
         if self.mirror:
             return None
         if self.count % 2 == 0:
-            return self.simpler(self.count // 2, mirror=False)
-        return self.simpler(self.count, mirror=True) if self.family.symmetric else None
-
-    def full(self) -> Section:
-        """The same without the mirror: its fixed points include those of the other."""
-        return Section(self.family, self.count, False, self.scale)
+            return self.with_map(self.count // 2, mirror=False)
+        return self.with_map(self.count, mirror=True) if self.family.symmetric else None
 
     def turned(self, phase: float) -> Section:
         """The same at another forcing phase of the section."""
         return replace(self, family=self.family.with_phase(phase))
-
-    def times(self, factor: int) -> Section:
-        """The map repeated."""
-        return Section(self.family, self.count * factor, self.mirror, self.scale)
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,12 +221,6 @@ def corrected(
 
     Parameters
     ----------
-    section
-        Whose fixed point is sought.
-    point
-        Where to begin.
-    mode
-        Phase at the section, as the engine counts.
     normal
         Normal of the plane, scaled; of its components only those in `Section.seen` count. Default:
         the plane on which the parameter is held.
@@ -304,10 +287,10 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
     return Status(outcome), trial, image
 
 
-def is_fixed(section: Section, periodic_orbit: Orbit, tolerance: float) -> bool:
-    """Whether an orbit is fixed under another map, to a scaled tolerance."""
+def is_fixed(section: Section, periodic_orbit: Orbit) -> bool:
+    """Whether an orbit is fixed under another map."""
     status, image, _ = evaluated(section, periodic_orbit.point, periodic_orbit.mode)
-    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
+    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= _FIXED)
 
 
 def margin_of(periodic_orbit: Orbit) -> float:
@@ -316,7 +299,7 @@ def margin_of(periodic_orbit: Orbit) -> float:
     value: float = orbit.grazing_margin(
         section.family.system(periodic_orbit.value),
         section.family.phase,
-        section.period,
+        section.count,
         MAX_EVENTS,
         periodic_orbit.point,
         periodic_orbit.facts,

@@ -73,12 +73,7 @@ def at_wall(hit: Orbit, clear: Orbit) -> bool:
 def dies_out(last: Orbit, earlier: Callable[[float], Orbit | None]) -> tuple[Orbit, float] | None:
     """The orbit without the impact that vanishes, at its grazing, and where it exists.
 
-    Parameters
-    ----------
-    last
-        An orbit with an impact of small velocity.
-    earlier
-        The orbit on the branch so far back from it.
+    `last` has an impact of small velocity; `earlier` returns the orbit so far back on its branch.
 
     Returns
     -------

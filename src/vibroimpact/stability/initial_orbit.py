@@ -25,7 +25,6 @@ from vibroimpact.stability.parameter_family import Family
 from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
-    later,
     reach,
     reach_at_rest,
     state_distance,
@@ -141,9 +140,9 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
             status, failed = outcome, orbit
             continue
         # A close return over several cycles may be due to an orbit of fewer.
-        if least is None or orbit.section.period == period:
+        if least is None or orbit.section.count == period:
             least = orbit
-        if repeats or orbit.section.period == period:
+        if repeats or orbit.section.count == period:
             break
     if least is None:
         raise _no_orbit(period, status, failed)
@@ -159,7 +158,7 @@ def _returns(rest: Settled, begin: _Array, period: int) -> list[_Array]:
     """
     sections = [begin]
     for _ in range(_RETURNS + period):
-        status, vector = later(rest, sections[-1], 1.0)
+        status, vector = rest.engine.propagate(sections[-1], 1.0)
         if status is not Status.DONE:
             break
         sections.append(vector)
@@ -181,13 +180,13 @@ def _tell_another(rest: Settled, orbit: Orbit) -> None:
     """Warn if an orbit that was sought where the motion from rest goes is another motion."""
     there = vector_of(orbit)
     if (
-        rest.period == orbit.section.period
+        rest.period == orbit.section.count
         and state_distance(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
     ):
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"
     warn_of_result(
-        f"the computed orbit has period {orbit.section.period} and is not the motion from rest, "
+        f"the computed orbit has period {orbit.section.count} and is not the motion from rest, "
         f"which {it}; to compute another orbit, pass a start near that orbit"
     )
 
@@ -203,8 +202,8 @@ def reduced(orbit: Orbit) -> Orbit:
     """The orbit with its least period."""
     section = orbit.section
     for count in range(1, section.count):
-        simpler = section.simpler(count, mirror=False)
-        if section.count % count == 0 and is_fixed(simpler, orbit, 1e-9):
+        simpler = section.with_map(count, mirror=False)
+        if section.count % count == 0 and is_fixed(simpler, orbit):
             status, simple = corrected(simpler, orbit.point, orbit.mode)
             return simple if status is Status.DONE else orbit
     return orbit
@@ -213,9 +212,9 @@ def reduced(orbit: Orbit) -> Orbit:
 def symmetric_if_so(orbit: Orbit) -> Orbit:
     """The orbit as a fixed point of the mirrored map, if it is its own mirror image."""
     section = orbit.section
-    if not own_mirror(orbit, 1e-9):
+    if not own_mirror(orbit):
         return orbit
-    half = section.simpler(section.count, mirror=True)
+    half = section.with_map(section.count, mirror=True)
     status, mirrored = corrected(half, orbit.point, orbit.mode)
     return mirrored if status is Status.DONE else orbit
 

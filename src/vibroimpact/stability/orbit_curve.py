@@ -167,7 +167,7 @@ class Branch:
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
-            cycles = met.section.period
+            cycles = met.section.count
             return [there], f"it meets the orbits of period {cycles} at {met.place}"
         return None
 
@@ -394,7 +394,7 @@ def solved(start: Station, length: float) -> Orbit | None:
 
 def _born_grazing(met: Orbit) -> str:
     """Why a branch ends that has shrunk onto a simpler orbit, which grazes."""
-    period = met.section.period
+    period = met.section.count
     whose = "that are their own mirror image" if met.section.mirror else f"of period {period}"
     return f"it meets the orbits {whose} at {met.place}, where they graze"
 

@@ -66,18 +66,14 @@ def stepped(
 ) -> None:
     """Hold one rig after the other.
 
+    `seen` is called with the result of each value. In `tally`, a hold is one step.
+
     Parameters
     ----------
     every
         The rig at each value, in the order in which they are held.
     start
         Where the first begins, as the engine's vector, put where it can be; None for the rest.
-    settling
-        How long each is held.
-    seen
-        Function that is called with the result of each value.
-    tally
-        See `response.threads.each`; a hold is one step.
     carry
         Whether the next goes on where one has ended; if not, it begins where the first did.
     """

@@ -149,7 +149,7 @@ def resonance_diagram(
                 continue
             for station in bifurcating_orbits(bifurcation):
                 inside = ends[0] <= station.orbit.value <= ends[1]
-                if station.orbit.section.period <= longest and inside:
+                if station.orbit.section.count <= longest and inside:
                     waiting.append((station.orbit, bifurcation))
         if progress:
             progress(len(followed), len(followed) + len(waiting))
@@ -182,7 +182,7 @@ def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[floa
 def on_branch(orbit: Orbit, one: Followed) -> bool:
     """Return whether an orbit lies on a branch, up to whole cycles and its mirror image."""
     section = one.stations[0].orbit.section
-    if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
+    if section.count != orbit.section.count or section.mirror != orbit.section.mirror:
         return False
     seen_there: dict[float, list[_Array]] = {}
     for here, there in itertools.pairwise(one.stations):

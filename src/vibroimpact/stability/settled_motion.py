@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
-from vibroimpact.model import AssemblyState, Oscillator, Repeated, State
+from vibroimpact.model import AssemblyState, Repeated, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_system import EngineSystem, engine_system
 from vibroimpact.response.hold_rows import Settling
@@ -41,11 +41,6 @@ class Settled(NamedTuple):
     def states(self) -> EngineSystem:
         """How states stand in vectors."""
         return self.engine.states
-
-    @property
-    def oscillator(self) -> Oscillator:
-        """What vibrates."""
-        return self.rig.oscillator
 
     @property
     def excitation(self) -> Repeated:
@@ -91,13 +86,6 @@ def approach(
     )
 
 
-def later(
-    motion: Settled, state: _Array, cycles: float, max_events: int = 10_000
-) -> tuple[Status, _Array]:
-    """The state some forcing cycles later; of use only if `Status.DONE`."""
-    return motion.engine.propagate(state, cycles, max_events)
-
-
 def section_sizes(engine: PreparedRig) -> _Array:
     """Return what the parts of a section are divided by: velocities by ω, to be displacements."""
     size = np.ones(engine.states.parts)
@@ -133,4 +121,4 @@ def reach_at_rest(rig: Rig) -> float:
 
 def settled_on(orbit: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    return Settled(prepare(orbit.rig), vector_of(orbit), orbit.section.period, 0, Status.DONE)
+    return Settled(prepare(orbit.rig), vector_of(orbit), orbit.section.count, 0, Status.DONE)

@@ -25,7 +25,7 @@ from vibroimpact.model.argument_types import (
 )
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
-from vibroimpact.response.analytic_free_response import exciting_excursion
+from vibroimpact.response.analytic_free_response import exciting_force
 from vibroimpact.response.assembly_rows import measured_over
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_system import engine_system
@@ -41,7 +41,6 @@ from vibroimpact.stability.parameter_family import family
 from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
-    later,
     reach,
     settled_on,
     state_distance,
@@ -242,7 +241,7 @@ def _mirror_distance(motion: Settled, state: _Array, period: int, max_events: in
     """
     if period % 2 == 0:
         return math.nan
-    status, half = later(motion, state, 0.5 * period, max_events)
+    status, half = motion.engine.propagate(state, 0.5 * period, max_events)
     if status is not Status.DONE:
         return math.nan  # seen from there a cycle has more events than are allowed
     image = motion.states.mirror_image(half)
@@ -254,15 +253,15 @@ def _measured(data: xr.Dataset, motion: Settled, scalars: dict[str, Any]) -> xr.
     if motion.states.system.by_mass:
         return _measured_by_mass(data, motion, scalars)
     periodic = scalars["period"] > 0
-    origin = Origin(motion.oscillator, motion.excitation, float(data["cycle"].values[-1]), periodic)
+    origin = Origin(
+        motion.rig.oscillator, motion.excitation, float(data["cycle"].values[-1]), periodic
+    )
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
     counts = Counter(log["contact_stop"].values.tolist())
     total, sizes = energies(every), extremes(every)
-    exciting = motion.oscillator.mass * float(
-        exciting_excursion(motion.rig, np.array([motion.excitation.frequency]))[0]
-    )
+    exciting = exciting_force(motion.rig)
     values: dict[str, Any] = {
         **sizes,
         "transmissibility": sizes["transmitted_force_excursion"] / (exciting or math.nan),

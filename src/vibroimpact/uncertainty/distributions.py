@@ -41,12 +41,8 @@ def distribution(
         A frozen distribution of `scipy.stats`, in SI units; or a string as in `KINDS`, such as
         ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. SIGMA is the standard deviation of the
         logarithm.
-    varied
-        The parameter.
     own
         Function that returns the rig's own value, to which shares refer.
-    field
-        Name of the field in messages.
 
     Raises
     ------
@@ -145,10 +141,7 @@ def text_of(spec: Any) -> str:
 def check_values(values: _Array, varied: Parameter, field: str) -> None:
     """Raise an error for draws that the parameter does not accept.
 
-    Raises
-    ------
-    InputError
-        If a draw is invalid; the message has the worst one.
+    The message has the worst one.
     """
     least, most = varied.least, varied.most
     short = np.zeros(values.shape, dtype=bool) if least is None else values < least
@@ -171,13 +164,7 @@ def check_values(values: _Array, varied: Parameter, field: str) -> None:
 
 
 def check_names(distributions: Any) -> dict[str, Any]:
-    """Read the distributions by parameter.
-
-    Raises
-    ------
-    InputError
-        If it is not a mapping, or is empty.
-    """
+    """Read the distributions by parameter, a mapping that is not empty."""
     if not isinstance(distributions, Mapping) or not distributions:
         raise InputError(
             f"distributions: {shown(distributions)}; pass a mapping from parameters to "

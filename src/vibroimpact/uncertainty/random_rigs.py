@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import rig_parameters, system_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated
 from vibroimpact.model.parameters import Parameter, parameter, set_values
-from vibroimpact.model.read_rig import RigOrSystem, one_system
+from vibroimpact.model.read_rig import RigOrSystem, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.system import System
 from vibroimpact.model.written_units import as_first_argument
@@ -112,7 +112,7 @@ def uncertain(rig: RigOrSystem, distributions: Any) -> Uncertain:
         If a distribution is invalid, or the rig has no such parameter.
     """
     alone = isinstance(rig, System)
-    base = one_system(rig)
+    base = as_rig_of_any_masses(rig, oscillator_alone=True)
     return _read(base, None if alone else base.periodic, distributions)
 
 
@@ -154,7 +154,7 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
         If the count is not a power of 2 for Sobol's points.
     """
     if method == "sobol":
-        check_power(count, "draws", "Sobol's points")
+        check_power(count)
         points: _Array = scipy.stats.qmc.Sobol(columns, rng=seed).random(count)
     elif method == "latin":
         points = scipy.stats.qmc.LatinHypercube(columns, rng=seed).random(count)
@@ -163,17 +163,10 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
     return points
 
 
-def check_power(number: int, field: str, what: str) -> None:
-    """Raise an error unless a number is a power of 2.
-
-    Raises
-    ------
-    InputError
-        If it is not; the message suggests the next power of 2.
-    """
-    if number & (number - 1):
-        following = 1 << number.bit_length()
+def check_power(draws: int) -> None:
+    """Raise an error unless a number is a power of 2, and suggest the next one."""
+    if draws & (draws - 1):
         raise InputError(
-            f"{field}: {number} is not a power of 2, which {what} require; pass a power of 2, such "
-            f"as {following}"
+            f"draws: {draws} is not a power of 2, which Sobol's points require; pass a power of 2, "
+            f"such as {1 << draws.bit_length()}"
         )

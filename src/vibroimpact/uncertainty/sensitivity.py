@@ -94,7 +94,7 @@ def sensitivity(
         As in `ensemble`. Also if the response does not contain the quantity.
     """
     drawn = uncertain(rig, distributions)
-    check_power(draws, "draws", "Sobol's points")
+    check_power(draws)
     columns = len(drawn.names)
     points = scipy.stats.qmc.Sobol(2 * columns, rng=seed).random(draws)
     a, b = points[:, :columns], points[:, columns:]

@@ -463,12 +463,7 @@ class Assembly(System):
     def matrix_of_links(self, what: str, links: Iterable[Link]) -> NDArray[np.float64]:
         """Return the sum of the stiffness (or the damping) of links and of the matrices.
 
-        Parameters
-        ----------
-        what
-            ``"stiffness"`` or ``"damping"``.
-        links
-            The links that contribute.
+        `what` is "stiffness" or "damping".
         """
         count = len(self.names)
         matrix = (
@@ -489,10 +484,7 @@ class Assembly(System):
     def _acted_on_by(self, shaking: Repeated) -> Repeated:
         """Return an excitation with the mass on which a force acts.
 
-        Raises
-        ------
-        InputError
-            If a force on one of several masses does not state which, or if there is no such mass.
+        A force on one of several masses must state which.
         """
         if shaking.moves_base:
             return shaking

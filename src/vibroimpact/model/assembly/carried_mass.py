@@ -57,8 +57,6 @@ class CarriedMasses:
 
         Parameters
         ----------
-        name, left, right
-            The link and its two bodies.
         keys
             Keys of its table that use the mass.
 

@@ -151,8 +151,6 @@ def _free_middle(edges: list[Point], length: float) -> float:
     ----------
     edges
         From left to right, where each stem or wall is at rest, and where it is now.
-    length
-        Length of the text, at most the distance between two stems.
     """
     middle = 0.5 * (edges[0][0] + edges[-1][0])
     at, (r0, x0), (r1, x1) = min(

@@ -82,11 +82,6 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
     Each link is loaded from rest in one direction. If a contact reverses the deformation of a
     hysteretic link, the state of rest depends on the order of the loading, and this is one of them.
 
-    Parameters
-    ----------
-    assembly
-        The assembly. Its base is at rest.
-
     Returns
     -------
     AssemblyState

@@ -141,12 +141,8 @@ def read_link(
 
     Parameters
     ----------
-    value
-        The `Link` or the table.
     where
         Its path in error messages, such as ``"links.storey"``.
-    is_stop
-        Whether a stop is expected.
     mass
         Function of the left body, the right body and the keys that use the mass, which returns it
         (kg). Of a stop, the mass that meets there, by which the ``restitution`` of a table of a

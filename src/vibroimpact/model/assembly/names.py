@@ -37,34 +37,15 @@ def check_part_name(name: object, where: str) -> str:
 
 
 def check_body(name: object, masses: Collection[str], where: str) -> str:
-    """Check that a link or a stop ends at a mass or at the ground, and return its name.
-
-    Raises
-    ------
-    InputError
-        As in `check_known`.
-    """
+    """Check that a link or a stop ends at a mass or at the ground, and return its name."""
     return check_known(name, (*masses, GROUND), "mass", where)
 
 
 def check_known(name: object, names: Collection[str], what: str, where: str) -> str:
     """Check that a part of an assembly exists, and return its name.
 
-    Parameters
-    ----------
-    name
-        The name.
-    names
-        Names that exist.
-    what
-        What they name, such as ``"mass"``.
-    where
-        Path of the name in error messages.
-
-    Raises
-    ------
-    InputError
-        If there is no such part. The message suggests the nearest name.
+    `what` is the kind of the part, such as "mass". The message begins with `where`, the path of the
+    name, and suggests the nearest one.
     """
     if isinstance(name, str) and name in names:
         return name

@@ -37,13 +37,7 @@ _ACCEPTS = {
 
 
 def design(**values: object) -> list[float]:
-    """Read design values by name, in SI units.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds.
-    """
+    """Read design values by name, in SI units."""
     numbers = []
     for name, value in values.items():
         number = _ACCEPTS[name].at(value, name)
@@ -77,10 +71,6 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
 
     Parameters
     ----------
-    table
-        Table, which may have a ``kind``.
-    law
-        The class of this kind.
     mass
         Mass on the isolator (kg). None if the mass is invalid.
 
