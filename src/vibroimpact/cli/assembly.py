@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from vibroimpact import figures
-from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,28 +15,6 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
 Animation = Literal["gif", "html"]
-
-
-def is_assembly(what: Subject) -> bool:
-    """Return whether the rig of a command has several masses."""
-    return what.system.by_mass
-
-
-def refuse(what: Subject, **options: Any) -> None:
-    """Refuse options that only a rig of one mass has.
-
-    Raises
-    ------
-    InputError
-        If one of them has a value.
-    """
-    for option, value in options.items():
-        if value is not None and value is not False and value != ():
-            words = "set" if value is True else repr(value)
-            raise InputError(
-                f"--{option}: {words}, but {what.name!r} has several masses, for which this option "
-                f"is not available; remove --{option}"
-            )
 
 
 def write_motion(

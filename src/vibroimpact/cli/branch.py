@@ -10,7 +10,6 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.own_outputs import Compute, own_outputs
 from vibroimpact.cli.states import fixed_frequency, named_state, rig_at, state
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, Vary, read_one
 from vibroimpact.stability.branch_styles import Quantity
@@ -35,7 +34,7 @@ def branch(
     longest: opt.Whole,
     random: opt.Whole,
     basins: opt.Whole = 0,
-    compute: Compute = (),
+    compute: opt.Compute = (),
     begin: Annotated[opt.Text, Parameter(name="--start")] = None,
     period: opt.Whole | None = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
@@ -109,16 +108,13 @@ def branch(
     import numpy as np
 
     from vibroimpact.attraction.basins_along import basins_along
-    from vibroimpact.cli.assembly import is_assembly, refuse
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import branch as facts
 
     what = subject(rig, changes, output.name, masses=True)
-    several = is_assembly(what)
-    if several:
-        refuse(what, normalised=physical is False, basins=basins or None)
+    several = what.system.by_mass
+    what.refuse_of_masses(normalised=physical is False, basins=basins or None)
     varied = read_one(what, vary, number=False)
     along, span = varied.name, varied.span
     is_one = begin is not None or period is not None or several
@@ -130,9 +126,9 @@ def branch(
     near: Any = None
     if begin is not None:
         near = named_state("--start", begin.split(",")) if several else state("--start", begin)
-    swept, outputs = None, own_outputs(compute)
+    swept, outputs = None, opt.own_outputs(compute)
     with results(what, output, fixed_frequency(shaken, along)) as written:
-        with progress_bar("following branches") as progress:
+        with written.progress("following branches") as progress:
             if is_one:
                 data = vi.branch(
                     shaken,

@@ -75,8 +75,6 @@ def motion(
         Of several masses, an initial value, COORDINATE=VALUE, such as velocity.ball=0.1m/s. The
         option may be repeated. Default: the static equilibrium.
     """
-    from vibroimpact.cli.assembly import is_assembly
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import motions as facts
@@ -85,7 +83,7 @@ def motion(
 
     what = subject(rig, changes, output.name, masses=True)
     shaken = _rigs(what, frequency)
-    if is_assembly(what):
+    if what.system.by_mass:
         return _of_masses(what, shaken, samples, named_state("--start", start), output)
     if start:
         raise InputError(
@@ -96,7 +94,7 @@ def motion(
     with results(what, output) as written:
         by_frequency = {}
         for hertz, one in shaken.items():
-            with progress_bar("finding motions") as progress:
+            with written.progress("finding motions") as progress:
                 by_frequency[hertz] = named_motions(one, branch, **options, progress=progress)
         drawn = {
             hertz: {name: data for name, data in motions.items() if data.sizes["time"]}
@@ -128,7 +126,6 @@ def _of_masses(
 ) -> int:
     """Find, draw and print the steady motion of several masses that is reached from a state."""
     from vibroimpact.cli.assembly import write_motion
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.facts import assembly as facts
     from vibroimpact.model.frequency_text import forcing, forcing_slug
@@ -141,7 +138,7 @@ def _of_masses(
         )
     ((hertz, one),) = shaken.items()
     with results(what, output) as written:
-        with progress_bar("finding motions") as progress:
+        with written.progress("finding motions") as progress:
             data = with_spectrum(vi.steady(one, start, samples, progress=progress))
         title, ending = f"{what.title}, {forcing(hertz, 10)}", f"{forcing_slug(hertz)}-motion"
         write_motion(written, data, ending, title, None)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vibroimpact.cli.options import OutputOptions
-from vibroimpact.cli.output import Folder, output_folder, tell
+from vibroimpact.cli.output import Folder, output_folder, progress_bar, tell
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 
 class Results:
-    """The files of a command about one rig, and the summary that lists them."""
+    """The files of a command about one rig, its progress, and the summary that lists the files."""
+
+    progress = staticmethod(progress_bar)
 
     def __init__(
         self, what: Subject, output: OutputOptions, folder: Folder, frequency: float | None

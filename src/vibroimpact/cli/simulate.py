@@ -89,8 +89,7 @@ def simulate(
         Write an animation of several masses, too: gif for slides, or html for a page with a slider.
         Default: no animation.
     """
-    from vibroimpact.cli.assembly import is_assembly, write_motion
-    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.assembly import write_motion
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.states import rig_at
@@ -105,7 +104,7 @@ def simulate(
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
     table = what.simulate_table
     begin = _start(what, displacement, velocity, start)
-    if animation is not None and not is_assembly(what):
+    if animation is not None and not what.system.by_mass:
         raise InputError(
             f"--animation: {animation!r}, but {what.name!r} has one mass; animations are made of "
             "assemblies of several masses; remove --animation"
@@ -122,7 +121,7 @@ def simulate(
     if cycles is None and not of_record:
         cycles = table.cycles or _CYCLES
     with results(what, output) as written:
-        with progress_bar("simulating") as progress:
+        with written.progress("simulating") as progress:
             data = vi.simulate(
                 shaken,
                 cycles,
@@ -133,7 +132,7 @@ def simulate(
             )
         if not data.sizes["time"]:
             raise InputError(f"the motion could not be simulated: {data.attrs['message']}")
-        if is_assembly(what):
+        if what.system.by_mass:
             name, title, cycled = "history", what.title, None
             if not of_record:
                 hertz = shaken.periodic.frequency
@@ -150,7 +149,7 @@ def simulate(
             title = f"{what.title}, {'free vibration' if free else forcing(hertz, 10)}"
             name = f"{forcing_slug(hertz)}-history"
             written.write(data, name, figures.time_history, title, cycles=last)
-    if is_assembly(what):
+    if what.system.by_mass:
         summary = masses.motion_facts(data)
         return written.tell(summary, masses.motion_text(summary))
     return written.tell(facts.facts(data), facts.text(data))
@@ -163,14 +162,13 @@ def _start(
 
     Several masses start at the equilibrium, which is the default of the library function.
     """
-    from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.cli.states import named_state
     from vibroimpact.model import State, equilibrium, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     u, v = what.simulate_table.displacement, what.simulate_table.velocity
-    if is_assembly(what):
-        refuse(what, displacement=displacement, velocity=velocity)
+    if what.system.by_mass:
+        what.refuse_of_masses(displacement=displacement, velocity=velocity)
         if u is not None or v:
             raise InputError(
                 "simulate.displacement, simulate.velocity: the rig has several masses; remove "
