@@ -94,7 +94,7 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: File) -> Path:
             )
         return write_whole(path, as_text(dataset))
     if isinstance(dataset, xr.Dataset):
-        return write_whole(path, _sealed(dataset))
+        return write_whole(path, sealed_bytes(dataset))
 
     for name, one in dataset.items():
         check_variables(one, (), f"dataset[{name!r}]", "a dataset, such as the result of sweep")
@@ -107,11 +107,11 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: File) -> Path:
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
-    return write_whole(path, _sealed(tree))
+    return write_whole(path, sealed_bytes(tree))
 
 
-def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
-    """Return the bytes of a NetCDF file, with their digest appended.
+def sealed_bytes(data: xr.Dataset | xr.DataTree) -> bytes:
+    """Return the bytes of the NetCDF file that `save` writes, with their digest appended.
 
     The checksums of HDF5 do not protect names and attributes: with them, of 1,500 random flips of
     a bit in a file, 48 changed the dataset that was read, without an error.

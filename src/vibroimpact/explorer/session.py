@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable, Iterator
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, NoReturn
 
 import xarray as xr
 
@@ -166,16 +167,16 @@ class Session:
         rig = (state.oscillator, _without_frequency(state), state.span)
         look = (*rig, state.physical)
         seen = (*rig, state.direction, state.shaking.frequency)
-        yield Stage("curves", ("coarse", *look), lambda check: self._curves(state, False, check))
-        yield Stage("motion", ("coarse", *seen), lambda _: self._quick(state))
+        yield Stage("curves", ("coarse", *look), partial(self._curves, state, False))
+        yield Stage("motion", ("coarse", *seen), lambda _: motion.quick(state, self._best(state)))
         yield Stage(
             "scenario", ("coarse", *rig), lambda _: scenario.quick(state, self._swept(state, False))
         )
         if self._dragging:
             return
-        yield Stage("curves", ("fine", *look), lambda check: self._curves(state, True, check))
-        yield Stage("motion", ("fine", *seen), lambda _: self._careful(state))
-        yield Stage("scenario", ("fine", *rig), lambda check: scenario.careful(state, check))
+        yield Stage("curves", ("fine", *look), partial(self._curves, state, True))
+        yield Stage("motion", ("fine", *seen), lambda _: motion.careful(state, self._best(state)))
+        yield Stage("scenario", ("fine", *rig), partial(scenario.careful, state))
         yield from self._on_demand(state, (*look, *seen), seen)
 
     def _on_demand(
@@ -194,14 +195,14 @@ class Session:
             for fine in (False, True):
                 word = "fine" if fine else "coarse"
                 if kind == "basins":
-                    yield Stage(kind, (word, *seen), _starts(state, fine))
+                    yield Stage(kind, (word, *seen), partial(basins.starts, state, fine))
                     continue
                 try:
                     where = plane.plane(state)
                 except (InputError, ArithmeticError) as error:
-                    yield Stage(kind, (word, str(error)), _refusal(error))
+                    yield Stage(kind, (word, str(error)), partial(_refuse, error))
                     break
-                yield Stage(kind, (word, *where), _scenarios(where, fine))
+                yield Stage(kind, (word, *where), partial(plane.scenarios, where, fine))
 
     def wants(self, stage: Stage) -> bool:
         """Return whether neither this picture nor a finer one was sent to the page."""
@@ -287,12 +288,6 @@ class Session:
     def _curves(self, state: PageState, fine: bool, progress: Progress | None = None) -> Message:
         return curves.curves(state, self._swept(state, fine, progress), fine)
 
-    def _quick(self, state: PageState) -> Message:
-        return motion.quick(state, self._best(state))
-
-    def _careful(self, state: PageState) -> Message:
-        return motion.careful(state, self._best(state))
-
 
 def shown_as(history: History) -> Message:
     """Return the present state in the form in which it is sent to a page.
@@ -333,14 +328,6 @@ def _shown_as(history: History) -> Message:
     }
 
 
-def _starts(state: PageState, fine: bool) -> Callable[[Progress], Message]:
-    return lambda check: basins.starts(state, fine, check)
-
-
-def _scenarios(where: plane.Plane, fine: bool) -> Callable[[Progress], Message]:
-    return lambda check: plane.scenarios(where, fine, check)
-
-
 def _bounded(make: Callable[[], Message]) -> Message:
     """Make something of a rig whose numbers may have no bound.
 
@@ -355,11 +342,8 @@ def _bounded(make: Callable[[], Message]) -> Message:
         raise InputError(_NO_NUMBER) from None
 
 
-def _refusal(error: Exception) -> Callable[[Progress], Message]:
-    def refused(check: Progress) -> Message:
-        raise error
-
-    return refused
+def _refuse(error: Exception, _: Progress) -> NoReturn:
+    raise error
 
 
 def _without_frequency(state: PageState) -> Hashable:
