@@ -12,8 +12,7 @@ from matplotlib.patches import Patch
 
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import band_of, chosen, history
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.portrait import SECTION

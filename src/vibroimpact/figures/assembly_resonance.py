@@ -36,7 +36,6 @@ from vibroimpact.model import Assembly
 _Array = NDArray[np.float64]
 
 _BASE = "transmitted force"
-_HEIGHT = 1.75
 _MARKS = 20
 """Approximate number of marks on a curve."""
 _CONTACT = {"both": "", "one": "/////"}
@@ -88,11 +87,9 @@ def mass_resonance(
         exist.
     """
     what = "data: this is not a sweep; pass the result of sweep"
-    assembly = assembly_of(data, what)
-    if "direction" not in data.dims or "frequency" not in data.dims:
-        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    assembly = assembly_of(data, what, "direction", "frequency")
     drawn = _panels(data, quantity, names, assembly)
-    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], title)
     frequency = data["frequency"].values
     kinds: set[str] = set()
     loose = set()
@@ -171,9 +168,7 @@ def mass_branches(
         not exist. Also if a sweep is passed although the parameter is not the frequency.
     """
     what = "data: this is not a branch; pass the result of branch"
-    assembly = assembly_of(data, what)
-    if "parameter" not in data.attrs or "branch" not in data:
-        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    assembly = assembly_of(data, what, "parameter", "branch")
     parameter = data.attrs["parameter"]
     if sweep is not None and (parameter != "frequency" or quantity not in sweep):
         raise InputError(
@@ -181,7 +176,7 @@ def mass_branches(
             "same rig with branches along 'frequency', or leave sweep out"
         )
     drawn = _panels(data, quantity, names, assembly)
-    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], title)
     scale, unit = axis_unit(data[parameter])
     x = scale * data[parameter].values
     pieces = stable_pieces(data)

@@ -13,8 +13,7 @@ from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError, alternatives, unknown
 from vibroimpact.figures.assembly_motion import refuse_masses
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new, check_axes

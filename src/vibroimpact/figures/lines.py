@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError, unknown
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.motion_style import axes_or_new, by_name, looks
 from vibroimpact.model.written_units import unitless
 
