@@ -25,27 +25,13 @@ def write_motion(
     cycles: float | None,
     animation: Animation | None = None,
 ) -> None:
-    """Save a motion, its histories, its contact forces and, of a frame, its envelopes.
+    """Save a motion with its histories, and draw the figures of `draw_motion`.
 
-    Parameters
-    ----------
-    written
-        The files of the command.
-    motion
-        Dataset of `simulate`, `steady` or `orbit`.
-    ending
-        Ending of the names of the files.
-    title
-        Title of the figures.
-    cycles
-        Number of forcing cycles in the histories. None for a record, which is drawn whole.
-    animation
-        Format of an animation, if one is wanted.
+    `cycles` is the number of forcing cycles in the histories, or None for all of them.
     """
-    stem = ending.removesuffix("-history")
     pairs = between_masses(written.what)
     written.write(motion, ending, figures.mass_histories, title, cycles=cycles, closing=pairs)
-    draw_motion(written, motion, stem, title, cycles, animation)
+    draw_motion(written, motion, ending.removesuffix("-history"), title, cycles, animation)
 
 
 def between_masses(what: Subject) -> list[str]:

@@ -54,6 +54,8 @@ def explore(
         contains the compiled engine: in a browser it computes rigs with linear laws by itself,
         without scenarios, unstable orbits and the map. Default: no file.
     """
+    import asyncio
+
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
     from vibroimpact.errors import InputError
@@ -99,7 +101,7 @@ def explore(
 
     try:
         with search_as_usual():
-            serve(first, announce, host, port)
+            asyncio.run(serve(first, announce, host, port))
     except KeyboardInterrupt:
         print("The explorer has stopped.")
     return 0

@@ -235,8 +235,7 @@ class ThresholdOptions:
         """Return the thresholds. A threshold without an option has its default."""
         from vibroimpact.scenarios.thresholds import Thresholds
 
-        own = {name: getattr(self, name) for name in Thresholds.names()}
-        return Thresholds(**{name: value for name, value in own.items() if value is not None})
+        return Thresholds(**stated(**vars(self)))
 
 
 @Parameter(name="*")

@@ -31,7 +31,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from vibroimpact.errors import InputError
-from vibroimpact.explorer.session import Message, Session, Stage
+from vibroimpact.explorer.session import Message, Session, Stage, shown_as
 from vibroimpact.explorer.state import PageState
 from vibroimpact.tasks.threads import Stopped
 
@@ -129,7 +129,7 @@ class Explorer:
         pictures = asyncio.create_task(self._pictures(session, awake, connection.send))
         saving: asyncio.Task[None] | None = None
         try:
-            await connection.send(_text({**session.hello(), **session.last_reports()}))
+            await connection.send(_text({**session.hello(), **shown_as(session.history)}))
             awake.set()
             async for raw in connection:
                 message = _read(raw)

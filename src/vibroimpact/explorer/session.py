@@ -103,14 +103,15 @@ class Session:
             return {"refused": "message: it is not valid; reload the page"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
-            history = self._next(message)
+            with written_for(None if message["do"] in ("preset", "open") else self.state):
+                history = self._next(message)
             answer = shown_as(history)
         except (InputError, ArithmeticError) as error:
             # Numbers whose products are not finite are reported as a mistake.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
             path = message.get("path") if isinstance(message.get("path"), str) else None
             refused = {"refused": words, "path": path, "n": number}
-            return refused if message.get("do") != "open" else {**refused, **self.last_reports()}
+            return refused if message.get("do") != "open" else {**refused, **shown_as(self.history)}
         self.history = history
         self.asked += 1
         self._dragging = message.get("dragging") is True
@@ -119,16 +120,8 @@ class Session:
             self._sent.pop(kind, None)  # what is put away is made again when it is asked for
         return {**answer, "n": number}
 
-    def last_reports(self) -> Message:
-        """Return the state in the form in which it is sent to the page."""
-        return shown_as(self.history)
-
     def _next(self, message: Message) -> History:
         """What the message makes of the history."""
-        with written_for(None if message["do"] in ("preset", "open") else self.state):
-            return self._done(message)
-
-    def _done(self, message: Message) -> History:
         history, now, do = self.history, self.history.now, message["do"]
         if do == "undo":
             return history.undo()
@@ -164,7 +157,7 @@ class Session:
     def stages(self) -> Iterator[Stage]:
         """Yield the pictures of the present state that are to be computed, quick ones first."""
         state = self.state
-        rig = (state.oscillator, _without_frequency(state), state.span)
+        rig = _of_sweep(state)
         look = (*rig, state.physical)
         seen = (*rig, state.direction, state.shaking.frequency)
         yield Stage("curves", ("coarse", *look), partial(self._curves, state, False))
@@ -273,7 +266,7 @@ class Session:
 
     def _swept(self, state: PageState, fine: bool, progress: Progress | None = None) -> xr.Dataset:
         """The sweep of a state; the last one of either fineness is kept."""
-        key = (state.oscillator, _without_frequency(state), state.span)
+        key = _of_sweep(state)
         held = self._sweeps.get(fine)
         if held is None or held[0] != key:
             held = self._sweeps[fine] = (key, curves.swept(state, fine, progress))
@@ -281,7 +274,7 @@ class Session:
 
     def _best(self, state: PageState) -> xr.Dataset:
         """The fine sweep if it is there."""
-        key = (state.oscillator, _without_frequency(state), state.span)
+        key = _of_sweep(state)
         held = self._sweeps.get(True)
         return held[1] if held and held[0] == key else self._swept(state, False)
 
@@ -297,18 +290,12 @@ def shown_as(history: History) -> Message:
     InputError
         If several harmonics shake the rig, or if its isolator has no stiffness.
     """
-    with written_for(history.now):
-        return _shown_as(history)
-
-
-def _shown_as(history: History) -> Message:
-    one_sine(history.now.rig, "amplitude")
-    state, first = history.now, history.first
-    rig = state.oscillator
-    return {
-        "state": {
+    state, rig = history.now, history.now.oscillator
+    with written_for(state):
+        one_sine(state.rig, "amplitude")
+        values = {
             "name": state.name,
-            "controls": [control._asdict() for control in controls(state, first)],
+            "controls": [control._asdict() for control in controls(state, history.first)],
             "laws": {
                 "isolator": rig.isolator.kind,
                 "right": rig.right.kind if rig.right else "none",
@@ -325,7 +312,7 @@ def _shown_as(history: History) -> Message:
             "redo": len(history.future),
             "address": share.address(state),
         }
-    }
+    return {"state": values}
 
 
 def _bounded(make: Callable[[], Message]) -> Message:
@@ -346,10 +333,10 @@ def _refuse(error: Exception, _: Progress) -> NoReturn:
     raise error
 
 
-def _without_frequency(state: PageState) -> Hashable:
-    """The excitation of a sweep, without the frequency of the selected motion."""
+def _of_sweep(state: PageState) -> tuple[Hashable, ...]:
+    """All that a sweep depends on, which is not the frequency of the selected motion."""
     shaken = state.shaking
-    return shaken.amplitude, shaken.of, shaken.phase
+    return state.oscillator, (shaken.amplitude, shaken.of, shaken.phase), state.span
 
 
 def _text(message: Message, key: str) -> str:
