@@ -157,21 +157,16 @@ def branch(
             if along == "frequency":
                 grid = np.linspace(*span, _HOLDS)
                 swept = vi.sweep(what.rig, grid, outputs=outputs)
-            of = quantity or "peak_displacement"
-            ending = f"{varied.ending}-branches"
-            written.write(data, ending, figures.mass_branches, quantity=of, sweep=swept)
-            for name in outputs or ():
-                panels = figures.mass_branches(data, quantity=name, sweep=swept, title=what.title)
-                written.draw(f"figure of {name}", f"{ending}-{name}", panels)
-            return written.tell(facts.facts(data), facts.text(data))
-        # A quantity that is named is drawn in its own units.
-        units = physical if quantity is None else bool(physical)
-        shown = quantity or "eta_d"
-        if draws_physical(data, units):
-            shown = _PHYSICAL.get(shown, shown)
+            draw: Any = figures.mass_branches
+            shown, title = quantity or "peak_displacement", what.title
+        else:
+            draw, shown, title = figures.branch_diagram, quantity or "eta_d", written.title
+            # A quantity that is named is drawn in its own units.
+            if draws_physical(data, physical if quantity is None else bool(physical)):
+                shown = _PHYSICAL.get(shown, shown)
         ending = f"{varied.ending}-branches"
-        written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)
+        written.write(data, ending, draw, quantity=shown, sweep=swept)
         for name in outputs or ():
-            drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=written.title)
+            drawn = draw(data, quantity=name, sweep=swept, title=title)
             written.draw(f"figure of {name}", f"{ending}-{name}", drawn)
     return written.tell(facts.facts(data), facts.text(data))

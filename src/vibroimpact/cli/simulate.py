@@ -132,23 +132,17 @@ def simulate(
             )
         if not data.sizes["time"]:
             raise InputError(f"the motion could not be simulated: {data.attrs['message']}")
+        title, ending, cycled = what.title, "history", None
+        if not of_record:
+            hertz, cycled = shaken.periodic.frequency, last
+            title += f", {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
+            ending = f"{forcing_slug(hertz)}-history"
         if what.system.by_mass:
-            name, title, cycled = "history", what.title, None
-            if not of_record:
-                hertz = shaken.periodic.frequency
-                name, cycled = f"{forcing_slug(hertz)}-history", last
-                title = (
-                    f"{what.title}, {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
-                )
-            write_motion(written, data, name, title, cycled, animation)
+            write_motion(written, data, ending, title, cycled, animation)
         elif of_record:
-            written.write(data, "history", figures.record_history)
+            written.write(data, ending, figures.record_history, title)
         else:
-            hertz = shaken.harmonic.frequency
-            free = shaken.harmonic.amplitude == 0.0
-            title = f"{what.title}, {'free vibration' if free else forcing(hertz, 10)}"
-            name = f"{forcing_slug(hertz)}-history"
-            written.write(data, name, figures.time_history, title, cycles=last)
+            written.write(data, ending, figures.time_history, title, cycles=cycled)
     if what.system.by_mass:
         summary = masses.motion_facts(data)
         return written.tell(summary, masses.motion_text(summary))
