@@ -14,7 +14,6 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import AssemblyState
-    from vibroimpact.model.rig import Rig
 
 MOST_COLUMNS = 6
 """Largest number of columns that fit on a page."""
@@ -119,7 +118,7 @@ def motion(
 
 def _of_masses(
     what: Subject,
-    shaken: dict[float, Rig],
+    shaken: dict[float, vi.Rig],
     samples: int,
     start: AssemblyState | None,
     output: opt.OutputOptions,
@@ -148,7 +147,7 @@ def _of_masses(
     return written.tell(summary, facts.steady_text(summary))
 
 
-def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
+def _rigs(what: Subject, frequency: str | None) -> dict[float, vi.Rig]:
     """Return the rig at each frequency of the option, or at the frequency in the study."""
     texts = [None] if frequency is None else [part.strip() for part in frequency.split(",")]
     rigs = {one.periodic.frequency: one for one in (rig_at(what, text) for text in texts)}

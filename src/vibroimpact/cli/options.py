@@ -10,11 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from cyclopts import Group, Parameter, Token
 
+import vibroimpact as vi
 from vibroimpact.errors import InputError
-
-if TYPE_CHECKING:
-    import vibroimpact as vi
-    from vibroimpact.scenarios.thresholds import Thresholds
 
 RIG = Group("Rig (details: vibroimpact help rigs)", sort_key=2)
 COMPUTATION = Group("Computation", sort_key=3)
@@ -162,8 +159,6 @@ def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
     InputError
         If a text is not a name with a formula.
     """
-    from vibroimpact.response.outputs import Output
-
     outputs: dict[str, vi.Output] = {}
     for text in texts:
         match = _OUTPUT.fullmatch(text)
@@ -175,7 +170,7 @@ def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
         name, units, formula = match.groups()
         if name in outputs:
             raise InputError(f"--compute: {name!r} is given twice; remove one of the two")
-        outputs[name] = Output(formula, units=(units or "").strip() or "1")
+        outputs[name] = vi.Output(formula, units=(units or "").strip() or "1")
     return outputs or None
 
 
@@ -231,11 +226,9 @@ class ThresholdOptions:
     deformation of the bumper. If the penetration divided by the gap is larger than this limit, a
     contact does not count as grazing. Default: 0.1."""
 
-    def thresholds(self) -> Thresholds:
+    def thresholds(self) -> vi.Thresholds:
         """Return the thresholds. A threshold without an option has its default."""
-        from vibroimpact.scenarios.thresholds import Thresholds
-
-        return Thresholds(**stated(**vars(self)))
+        return vi.Thresholds(**stated(**vars(self)))
 
 
 @Parameter(name="*")

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import vibroimpact as vi
 from vibroimpact.cli.options import OutputOptions
 from vibroimpact.cli.output import Folder, output_folder, progress_bar, tell
 
@@ -73,11 +74,9 @@ class Results:
         drawn
             Data of the figure, if they differ from the saved data. Default: the saved data.
         """
-        from vibroimpact.datasets.files import save
-
         for one in data.values() if isinstance(data, dict) else [data]:
             one.attrs["title"] = self.what.name
-        self.files["data"] = save(data, self.path(ending, "nc"))
+        self.files["data"] = vi.save(data, self.path(ending, "nc"))
         shown = data if drawn is None else drawn
         self.draw("figure", ending, draw(shown, title=title or self.title, **options))
 

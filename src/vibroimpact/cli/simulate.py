@@ -95,7 +95,6 @@ def simulate(
     from vibroimpact.cli.states import rig_at
     from vibroimpact.facts import assembly as masses
     from vibroimpact.facts import trajectory as facts
-    from vibroimpact.model import Record
     from vibroimpact.model.argument_types import whole
     from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.model.quantities import DIMENSIONLESS
@@ -111,7 +110,7 @@ def simulate(
         )
     samples = table.samples if samples is None else whole(samples, "samples")
     last = to_si(shown, DIMENSIONLESS, "--shown", above=0.0)
-    of_record = isinstance(what.shaking, Record)
+    of_record = isinstance(what.shaking, vi.Record)
     if of_record and frequency is not None:
         raise InputError(
             f"--frequency: {frequency}, but this rig is shaken by a record, which has no forcing "
@@ -157,7 +156,7 @@ def _start(
     Several masses start at the equilibrium, which is the default of the library function.
     """
     from vibroimpact.cli.states import named_state
-    from vibroimpact.model import State, equilibrium, to_si
+    from vibroimpact.model import equilibrium, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     u, v = what.simulate_table.displacement, what.simulate_table.velocity
@@ -178,4 +177,4 @@ def _start(
         u = to_si(displacement, LENGTH, "--displacement")
     elif u is None:
         u = equilibrium(what.oscillator).displacement
-    return State(u, v if velocity is None else to_si(velocity, VELOCITY, "--velocity"))
+    return vi.State(u, v if velocity is None else to_si(velocity, VELOCITY, "--velocity"))
