@@ -120,21 +120,9 @@ def list_frequencies(
     table: SweepTable | None,
     default: Range,
 ) -> tuple[float, ...] | tuple[str, ...]:
-    """Return the frequencies of a sweep. Options take precedence over the study.
+    """Return the frequencies of a sweep (Hz), or the texts of a list, which the sweep reads.
 
-    Parameters
-    ----------
-    start, stop, step, listed
-        Values of the options ``--from``, ``--to``, ``--step`` and ``--frequencies``.
-    table
-        Table ``[sweep]`` of the study.
-    default
-        Default of from, to and step in Hz. None if there is no default.
-
-    Returns
-    -------
-    tuple
-        Numbers in Hz, or the texts of a list of frequencies, which the sweep converts to numbers.
+    Options take precedence over the table ``[sweep]`` of the study, and the table over the default.
 
     Raises
     ------

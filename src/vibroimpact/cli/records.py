@@ -138,12 +138,8 @@ AS_STATED = RecordOptions()
 def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
     """Return the paths of the records that the study lists in ``[design]``.
 
-    Parameters
-    ----------
-    rig
-        The study file. A laboratory case has no records.
-    with_own_record
-        Whether they are returned if the excitation of the study is itself a record.
+    A laboratory case has none. Without `with_own_record`, neither has a study whose excitation is a
+    record.
     """
     from vibroimpact.cli.study import read_study
 

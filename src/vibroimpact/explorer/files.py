@@ -19,14 +19,7 @@ from vibroimpact.model.names import file_stem
 def made(kind: str, state: PageState, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:
     """Return a file: its name, its media type and its bytes (as Base64 text).
 
-    Parameters
-    ----------
-    kind
-        Kind of file: ``"study"``, ``"python"``, ``"netcdf"`` or ``"csv"``.
-    state
-        The state of the page.
-    swept
-        Function that returns the fine sweep of this state.
+    `swept` returns the fine sweep of the state.
 
     Raises
     ------

@@ -31,17 +31,8 @@ async def serve(
 ) -> None:
     """Serve pages until `stop` is set, or until the program is interrupted.
 
-    Parameters
-    ----------
-    first
-        Initial state of a page.
-    ready
-        Function that is called with the address as soon as the server is ready.
-    host
-        Host name or address to listen on. If it is reachable from other machines, the address
-        contains a token.
-    port
-        Port number. 0 selects a free port.
+    `ready` is called with the address as soon as the server is ready. If the host is reachable from
+    other machines, the address contains a token. Port 0 selects a free port.
 
     Raises
     ------

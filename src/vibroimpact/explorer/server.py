@@ -308,21 +308,9 @@ def _refused(status: HTTPStatus, why: str) -> Response:
 
 
 async def start(first: PageState, host: str, port: int, token: str = "") -> tuple[Server, str]:
-    """Start the server.
+    """Start the server; return it and the address of its page.
 
-    Parameters
-    ----------
-    first
-        Initial state of a page.
-    host, port
-        Host and port on which the server listens. Port 0 selects a free port.
-    token
-        Token that an address must contain. Default: no token is required.
-
-    Returns
-    -------
-    server, address
-        The server, which runs until it is closed, and the address of its page.
+    It runs until it is closed. Port 0 selects a free port. An address contains the token, if any.
 
     Raises
     ------

@@ -91,13 +91,10 @@ class Session:
         }
 
     def take(self, message: object) -> Message:
-        """Handle a message of a page, and return the answer.
+        """Handle a message of a page, and return the answer: ``state`` with the knobs.
 
-        Returns
-        -------
-        dict
-            ``state`` with the knobs. If the message is invalid, ``refused`` with the reason; the
-            state does not change then.
+        If the message is invalid, the answer is ``refused`` with the reason, and the state does not
+        change.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
             return {"refused": "message: it is not valid; reload the page"}

@@ -30,21 +30,12 @@ _PAGE = 7.2
 
 
 def assembly_of(data: Any, what: str, *required: str) -> Assembly:
-    """Return the assembly of a dataset.
-
-    Parameters
-    ----------
-    data
-        The dataset.
-    what
-        What is expected, such as ``"motion: … the result of simulate"``, for the error.
-    required
-        Names that the dataset has: of variables, dims or attributes.
+    """Return the assembly of a dataset that has the required variables, dims or attributes.
 
     Raises
     ------
     InputError
-        If the dataset is not of an assembly, or lacks a name.
+        If there is none. The message begins with `what`: ``"motion: … the result of simulate"``.
     """
     parameters = json.loads(getattr(data, "attrs", {}).get("parameters", "{}"))
     table = parameters.get("rigs", [parameters])[0].get("assembly")
