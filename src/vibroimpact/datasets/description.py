@@ -56,10 +56,7 @@ def describe(
         In tests: if it has other dims than the registry states.
     """
     known = {one.name: Variable(one.units, one.long_name) for one in varied}
-    if parameters is None and "parameters" in dataset.attrs:
-        still = base_at_rest(dataset)
-    else:
-        still = parameters is not None and _stands(parameters)
+    still = base_at_rest(dataset) if parameters is None else _stands(parameters)
     for name in dataset.variables:
         variable = VARIABLES.get(str(name)) or known[str(name)]
         if CHECKS_DIMS and name not in known:

@@ -176,7 +176,8 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
         file = io.BytesIO(content)
         groups = [part.strip("/") for part in xr.open_groups(file, engine="h5netcdf")]
         groups = [part for part in groups if part]
-        if (isinstance(group, str) and group in groups) or (group is None and not groups):
+        exists = group in groups if isinstance(group, str) else group is None and not groups
+        if exists:
             data: xr.Dataset = xr.load_dataset(file, engine="h5netcdf", group=group)
     except (OSError, ValueError, KeyError, RuntimeError, TypeError, AttributeError) as error:
         reason = (str(error).splitlines() or [type(error).__name__])[0]
@@ -184,7 +185,7 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
             "pass a complete file that vibroimpact wrote"
         ) from None
-    if not (isinstance(group, str) and group in groups) and (groups or group is not None):
+    if not exists:
         known = f"pass one of {', '.join(groups)}" if groups else "leave group out"
         if group is None:
             raise InputError(f"group: missing, but {str(path)!r} has several groups; {known}")
