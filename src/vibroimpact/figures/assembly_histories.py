@@ -10,8 +10,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
+from vibroimpact.arguments import check_name
 from vibroimpact.engine.stops.rebound import restitutions
-from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import (
     History,
     chosen,
@@ -88,8 +88,7 @@ def mass_histories(
         If the dataset does not hold such a motion, or if a quantity or a mass does not exist.
     """
     shown = history(motion, cycles)
-    if quantity not in LABELS:
-        raise InputError(f"quantity: {unknown(quantity, LABELS)}")
+    check_name(quantity, LABELS, "quantity")
     names = chosen(masses, shown.assembly.names, "mass", "masses")
     pairs = chosen(closing, tuple(shown.assembly.stops), "stop", "closing") if closing else []
     every = rows_of_panels(axes, [*names, *pairs], title)

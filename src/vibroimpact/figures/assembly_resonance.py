@@ -12,7 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import check_name
+from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import (
     assembly_of,
     chosen,
@@ -267,8 +268,7 @@ def _panels(
         and one.dtype.kind == "f"
         and not str(name).startswith("bifurcation_")
     ]
-    if quantity not in known:
-        raise InputError(f"quantity: {unknown(quantity, known)}")
+    check_name(quantity, known, "quantity")
     values = data[quantity]
     hit = data["peak_force"] > 0.0  # infinite at a rigid stop that is hit
     dim = next((dim for dim in ("mass", "stop") if dim in values.dims), None)
