@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,19 +20,17 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
 
+@dataclass
 class Results:
     """The files of a command about one rig, its progress, and the summary that lists the files."""
 
-    progress = staticmethod(progress_bar)
+    what: Subject
+    output: OutputOptions
+    folder: Folder
+    frequency: float | None
+    files: dict[str, Path] = field(default_factory=dict)
 
-    def __init__(
-        self, what: Subject, output: OutputOptions, folder: Folder, frequency: float | None
-    ) -> None:
-        self.what = what
-        self.frequency = frequency
-        self.output = output
-        self.folder = folder
-        self.files: dict[str, Path] = {}
+    progress = staticmethod(progress_bar)
 
     def path(self, ending: str, suffix: str) -> Path:
         """Return the path of the file NAME-ENDING.SUFFIX, or NAME-FREQUENCY-ENDING.SUFFIX."""
