@@ -10,7 +10,7 @@ from typing import Any
 from benchmarks.report import Table, met, targets
 from vibroimpact.explorer import offline_page
 from vibroimpact.explorer.presets import FIRST, preset
-from vibroimpact.explorer.run import serving
+from vibroimpact.explorer.run import serve
 
 _MOVES = 200
 _COARSE, _FINE = 50.0, 300.0
@@ -79,7 +79,7 @@ def page() -> Table | None:
         where.append(address)
         ready.set()
 
-    server = serving(preset(FIRST), "127.0.0.1", 0, remember)
+    server = serve(preset(FIRST), remember)
     threading.Thread(target=lambda: asyncio.run(server), daemon=True).start()
     ready.wait()
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:

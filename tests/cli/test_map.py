@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from samples import sample
-from vibroimpact.cli.map import _axis
+from vibroimpact.cli.map import _NODES, _axis
 
 COMMAND = "map"
 STEP = ("--step", sample("0.02", "0.04"))
@@ -67,9 +67,9 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     ],
 )
 def test_ranges(text, expected):
-    name, values, spacing = _axis("gap-ratio", text, "acceleration")
-    assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
-    np.testing.assert_allclose(values, expected, rtol=1e-12)
+    one = _axis("gap-ratio", text, "acceleration")
+    assert (one.name, one.logarithmic) == ("gap_ratio", "log" in text)
+    np.testing.assert_allclose(one.values(_NODES), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize(

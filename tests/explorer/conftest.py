@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.page import chromium
 from vibroimpact.explorer.presets import FIRST, preset
-from vibroimpact.explorer.run import serving
+from vibroimpact.explorer.run import serve
 
 
 class Served:
@@ -24,7 +24,7 @@ class Served:
 
         async def run() -> None:
             self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
-            await serving(preset(FIRST), host, port, announce, self._stop)
+            await serve(preset(FIRST), announce, host, port, self._stop)
 
         self._thread = threading.Thread(target=lambda: asyncio.run(run()), daemon=True)
         self._thread.start()

@@ -12,7 +12,7 @@ from playwright.sync_api import sync_playwright
 
 from benchmarks.page import chromium
 from vibroimpact.explorer.presets import FIRST, preset
-from vibroimpact.explorer.run import serving
+from vibroimpact.explorer.run import serve
 
 IMAGES = Path(__file__).parents[2] / "docs/images"
 GAPS = ("7.5 mm", "15 mm", "25 mm")
@@ -30,7 +30,7 @@ def main() -> None:
         where.append(address)
         ready.set()
 
-    server = serving(preset(FIRST), "127.0.0.1", 0, announce)
+    server = serve(preset(FIRST), announce)
     threading.Thread(target=lambda: asyncio.run(server), daemon=True).start()
     ready.wait()
     parts = []

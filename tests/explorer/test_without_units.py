@@ -13,7 +13,7 @@ import pytest
 import vibroimpact as vi
 from explorer.test_session import pictures
 from vibroimpact.explorer import share
-from vibroimpact.explorer.session import Session
+from vibroimpact.explorer.session import Session, shown_as
 from vibroimpact.explorer.state import begin
 from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.written_units import unitless
@@ -157,7 +157,7 @@ def test_files_keep_the_rig_without_units(tmp_path):
 def test_a_study_file_states_that_a_number_is_a_force(tmp_path):
     pushed = vi.Rig(STATED.oscillator, vi.Harmonic(0.5, 0.2, of="force"))
     session = Session(begin(pushed))
-    assert "force amplitude" in json.dumps(session.last_reports())
+    assert "force amplitude" in json.dumps(shown_as(session.history))
     path = tmp_path / "pushed.toml"
     path.write_bytes(base64.b64decode(session.file("study")["bytes"]))
     again = begin(path)

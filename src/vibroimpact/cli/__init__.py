@@ -105,19 +105,7 @@ _COMMANDS = (
 
 
 def main(arguments: Iterable[str] | None = None) -> int:
-    """Run a command.
-
-    Parameters
-    ----------
-    arguments
-        Words of the command line after the name of the program. Default: those of the system.
-
-    Returns
-    -------
-    int
-        Exit code: 0 (completed), 1 (results could not be written), 2 (invalid input), 130
-        (interrupted), 143 (terminated).
-    """
+    """Run the command of these words (default: those of the system), and return its exit code."""
     if arguments is not None:
         return _run(list(arguments))
     hold_closed_streams()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from vibroimpact import figures
-from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,28 +17,6 @@ if TYPE_CHECKING:
 Animation = Literal["gif", "html"]
 
 
-def is_assembly(what: Subject) -> bool:
-    """Return whether the rig of a command has several masses."""
-    return what.system.by_mass
-
-
-def refuse(what: Subject, **options: Any) -> None:
-    """Refuse options that only a rig of one mass has.
-
-    Raises
-    ------
-    InputError
-        If one of them has a value.
-    """
-    for option, value in options.items():
-        if value is not None and value is not False and value != ():
-            words = "set" if value is True else repr(value)
-            raise InputError(
-                f"--{option}: {words}, but {what.name!r} has several masses, for which this option "
-                f"is not available; remove --{option}"
-            )
-
-
 def write_motion(
     written: Results,
     motion: xr.Dataset,
@@ -48,27 +25,13 @@ def write_motion(
     cycles: float | None,
     animation: Animation | None = None,
 ) -> None:
-    """Save a motion, its histories, its contact forces and, of a frame, its envelopes.
+    """Save a motion with its histories, and draw the figures of `draw_motion`.
 
-    Parameters
-    ----------
-    written
-        The files of the command.
-    motion
-        Dataset of `simulate`, `steady` or `orbit`.
-    ending
-        Ending of the names of the files.
-    title
-        Title of the figures.
-    cycles
-        Number of forcing cycles in the histories. None for a record, which is drawn whole.
-    animation
-        Format of an animation, if one is wanted.
+    `cycles` is the number of forcing cycles in the histories, or None for all of them.
     """
-    stem = ending.removesuffix("-history")
     pairs = between_masses(written.what)
     written.write(motion, ending, figures.mass_histories, title, cycles=cycles, closing=pairs)
-    draw_motion(written, motion, stem, title, cycles, animation)
+    draw_motion(written, motion, ending.removesuffix("-history"), title, cycles, animation)
 
 
 def between_masses(what: Subject) -> list[str]:

@@ -56,7 +56,6 @@ def basin_stability(
         vibroimpact basin-stability B2-G1-A3 --vary frequency=1.5Hz:2.7Hz
         vibroimpact basin-stability B3-10mm-A3 --vary gap=3mm:7mm:11 --frequency 0.7Hz
     """
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import basin_stability as facts
@@ -66,7 +65,7 @@ def basin_stability(
     along = varied.name
     shaken, window = states.rig(what, along), states.window()
     with results(what, output, fixed_frequency(shaken, along)) as written:
-        with progress_bar("computing shares") as progress:
+        with written.progress("computing shares") as progress:
             data = vi.basin_stability(
                 shaken,
                 *window,

@@ -61,19 +61,16 @@ def basins(
     nodes
         Number of initial states along each axis of the grid.
     """
-    from vibroimpact.cli.assembly import is_assembly, refuse
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import basins as facts
 
     what = subject(rig, changes, output.name, masses=True)
-    if is_assembly(what):
-        refuse(what, displacement=states.displacement, velocity=states.velocity)
+    what.refuse_of_masses(displacement=states.displacement, velocity=states.velocity)
     shaken, window = states.rig(what), states.window()
     chosen, start = plane(what, on), named_state("--start", begin)
     with results(what, output, shaken.harmonic.frequency) as written:
-        with progress_bar("computing basins") as progress:
+        with written.progress("computing basins") as progress:
             data = vi.basins(
                 shaken,
                 *window,

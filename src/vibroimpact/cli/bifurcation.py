@@ -10,7 +10,6 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.own_outputs import Compute, own_outputs
 from vibroimpact.cli.states import fixed_frequency, rig_at
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_one
 
@@ -41,7 +40,7 @@ def bifurcation(
     ),
     phase: opt.Text = None,
     branches: opt.Flag = False,
-    compute: Compute = (),
+    compute: opt.Compute = (),
     threads: opt.Threads = None,
     where: opt.Where = "threads",
     max_cycles: Annotated[opt.Whole, Parameter(group=opt.COMPUTATION)],
@@ -91,8 +90,6 @@ def bifurcation(
         Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does
         (of several masses, one branch), draw them with their bifurcations, and print these.
     """
-    from vibroimpact.cli.assembly import is_assembly
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import bifurcation_diagram as facts
@@ -102,9 +99,9 @@ def bifurcation(
     varied = read_one(what, vary)
     along, span = varied.name, varied.span
     shaken = rig_at(what, frequency, phase, along)
-    outputs = own_outputs(compute)
+    outputs = opt.own_outputs(compute)
     with results(what, output, fixed_frequency(shaken, along)) as written:
-        with progress_bar("computing motions") as progress:
+        with written.progress("computing motions") as progress:
             data = vi.bifurcation_diagram(
                 shaken,
                 {along: span},
@@ -122,7 +119,7 @@ def bifurcation(
         orbits = None
         if branches:
             start_phase = shaken.harmonic.phase
-            if is_assembly(what):
+            if what.system.by_mass:
                 begin = shaken.at(span[0]) if along == "frequency" else shaken
                 orbits = vi.branch(begin, vary={along: span})
             else:

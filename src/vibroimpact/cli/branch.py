@@ -10,7 +10,6 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.own_outputs import Compute, own_outputs
 from vibroimpact.cli.states import fixed_frequency, named_state, rig_at, state
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, Vary, read_one
 from vibroimpact.stability.branch_styles import Quantity
@@ -35,7 +34,7 @@ def branch(
     longest: opt.Whole,
     random: opt.Whole,
     basins: opt.Whole = 0,
-    compute: Compute = (),
+    compute: opt.Compute = (),
     begin: Annotated[opt.Text, Parameter(name="--start")] = None,
     period: opt.Whole | None = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
@@ -109,16 +108,13 @@ def branch(
     import numpy as np
 
     from vibroimpact.attraction.basins_along import basins_along
-    from vibroimpact.cli.assembly import is_assembly, refuse
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import branch as facts
 
     what = subject(rig, changes, output.name, masses=True)
-    several = is_assembly(what)
-    if several:
-        refuse(what, normalised=physical is False, basins=basins or None)
+    several = what.system.by_mass
+    what.refuse_of_masses(normalised=physical is False, basins=basins or None)
     varied = read_one(what, vary, number=False)
     along, span = varied.name, varied.span
     is_one = begin is not None or period is not None or several
@@ -130,9 +126,9 @@ def branch(
     near: Any = None
     if begin is not None:
         near = named_state("--start", begin.split(",")) if several else state("--start", begin)
-    swept, outputs = None, own_outputs(compute)
+    swept, outputs = None, opt.own_outputs(compute)
     with results(what, output, fixed_frequency(shaken, along)) as written:
-        with progress_bar("following branches") as progress:
+        with written.progress("following branches") as progress:
             if is_one:
                 data = vi.branch(
                     shaken,
@@ -161,21 +157,16 @@ def branch(
             if along == "frequency":
                 grid = np.linspace(*span, _HOLDS)
                 swept = vi.sweep(what.rig, grid, outputs=outputs)
-            of = quantity or "peak_displacement"
-            ending = f"{varied.ending}-branches"
-            written.write(data, ending, figures.mass_branches, quantity=of, sweep=swept)
-            for name in outputs or ():
-                panels = figures.mass_branches(data, quantity=name, sweep=swept, title=what.title)
-                written.draw(f"figure of {name}", f"{ending}-{name}", panels)
-            return written.tell(facts.facts(data), facts.text(data))
-        # A quantity that is named is drawn in its own units.
-        units = physical if quantity is None else bool(physical)
-        shown = quantity or "eta_d"
-        if draws_physical(data, units):
-            shown = _PHYSICAL.get(shown, shown)
+            draw: Any = figures.mass_branches
+            shown, title = quantity or "peak_displacement", what.title
+        else:
+            draw, shown, title = figures.branch_diagram, quantity or "eta_d", written.title
+            # A quantity that is named is drawn in its own units.
+            if draws_physical(data, physical if quantity is None else bool(physical)):
+                shown = _PHYSICAL.get(shown, shown)
         ending = f"{varied.ending}-branches"
-        written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)
+        written.write(data, ending, draw, quantity=shown, sweep=swept)
         for name in outputs or ():
-            drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=written.title)
+            drawn = draw(data, quantity=name, sweep=swept, title=title)
             written.draw(f"figure of {name}", f"{ending}-{name}", drawn)
     return written.tell(facts.facts(data), facts.text(data))

@@ -73,7 +73,6 @@ def classify(
     """
     from rich.text import Text as Line
 
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import scenario as facts
@@ -83,7 +82,7 @@ def classify(
     grid = _frequencies(what, start, stop, step)
     used = thresholds.thresholds()
     with results(what, output) as written:
-        with progress_bar("sweeping") as progress:
+        with written.progress("sweeping") as progress:
             classification = classify_rig(
                 what.rig, grid, thresholds=used, threads=threads, progress=progress
             )

@@ -74,7 +74,6 @@ def curve(
         2Hz. It has no effect if the first parameter is the frequency. Default: the frequency in the
         study file (table [simulate]). If there is none, the option is required.
     """
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import bifurcation_curves as facts
@@ -94,7 +93,7 @@ def curve(
     spans = {one.name: one.span for one in parameters}
     shaken = rig_at(what, frequency, along=first.name)
     with results(what, output, fixed_frequency(shaken, *pair)) as written:
-        with progress_bar("following curves") as progress:
+        with written.progress("following curves") as progress:
             curves = curves_of_kind(shaken, kind, vary=spans, progress=progress)
         ending = f"{bifurcation}-{first.ending}-{second.ending}"
         written.write(curves, ending, figures.bifurcation_curves, f"{written.title}, {kind}")

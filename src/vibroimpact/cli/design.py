@@ -102,9 +102,7 @@ def design(
         response is below the reported value. With 1, the largest response is reported. Default: the
         value in the study file (table [design]), or 1.
     """
-    from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.cli.frequency_grid import default_range, sine_span
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import DesignTable
@@ -116,9 +114,8 @@ def design(
     named_records = reading.read(records or records_of_design(rig))
     first = next(iter(named_records.values()), None)
     what = subject(rig, changes, output.name, shaken=first, masses=True)
-    several = is_assembly(what)
-    if several:
-        refuse(what, best=best)
+    several = what.system.by_mass
+    what.refuse_of_masses(best=best)
     suite = records_or_sines(what, named_records, scale, peak)
     table = what.study.design if what.study else DesignTable()
     chosen_ranges, sines = split_sines(read_vary(what, vary))
@@ -126,8 +123,7 @@ def design(
     ranges = {one.name: one.values(_VALUES) for one in chosen_ranges or of_study}
     limits: dict[str, Any] = {underscored(name): v for name, v in (table.limits or {}).items()}
     limits |= opt.by_name("--limit", limit)
-    alone = what.assembly if several else what.oscillator
-    designed = alone if suite else what.rig
+    designed: Any = what.system if suite else what.rig
     span: Any = sines or sines_of_study or sine_span(what)
     if several and span is None:
         span = default_range(what)[:2]
@@ -140,15 +136,14 @@ def design(
     }
     least = None
     with results(what, output) as written:
-        with progress_bar("computing designs") as progress:
+        with written.progress("computing designs") as progress:
             gap = vi.required_gap(designed, frequency, **options)
             widest = gap["required_gap"].max() if several else gap["common_gap"]
             values = ranges or usual_ranges(what.system, float(widest))
             options |= {"limits": limits, "progress": progress}
             data = vi.design_chart(designed, {**values, **frequency}, **options)
             if best:
-                rig_alone = what.oscillator if suite else what.rig
-                least = vi.least_acceleration(rig_alone, frequency or None, **options)
+                least = vi.least_acceleration(designed, frequency or None, **options)
         written.files["data"] = vi.save(data, written.path("design", "nc"))
         written.files["table"] = vi.save(data, written.path("design", "csv"))
         if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:

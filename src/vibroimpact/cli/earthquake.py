@@ -78,8 +78,7 @@ def earthquake(
         number affects the response spectrum of the mass. It does not affect the reported largest
         displacements, accelerations and forces.
     """
-    from vibroimpact.cli.assembly import is_assembly, response_table
-    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.assembly import response_table
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.earthquakes.earthquake_response import earthquake_response
@@ -92,14 +91,14 @@ def earthquake(
     shaking = scale_records(named_records or record_of_study(what), scale, peak)
     samples = whole(samples, "samples")
     stems = record_stems(shaking)
-    show = _show_masses if is_assembly(what) else _show
+    show = _show_masses if what.system.by_mass else _show
     text: list[Any] = []
     record_facts: list[dict[str, Any]] = []
     responses = {}
     with results(what, output) as written:
         for name, record in shaking.items():
             shaken = vi.Rig(what.system, record)
-            with progress_bar("simulating") as progress:
+            with written.progress("simulating") as progress:
                 groups = earthquake_response(shaken, tail=tail, samples=samples, progress=progress)
             ending = f"{stems[name]}-earthquake"
             written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
@@ -107,7 +106,7 @@ def earthquake(
             values, lines = show(written, name, shaken, groups, ending, tail)
             record_facts.append(values)
             text += lines
-        join = response_table if is_assembly(what) else facts.together
+        join = response_table if what.system.by_mass else facts.together
         path = vi.save(join(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}
     return written.tell({"records": record_facts}, *text, shaking=False)
@@ -124,12 +123,11 @@ def _show(
     """Draw the motion of one mass through a record, and return its facts and their text."""
     from rich.text import Text as Line
 
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.earthquakes.earthquake_response import response_without_stops
     from vibroimpact.facts import earthquake as facts
     from vibroimpact.model.names import literal
 
-    with progress_bar("simulating") as progress:
+    with written.progress("simulating") as progress:
         free = response_without_stops(shaken, tail=tail, progress=progress)
     spectra = {"ground": groups["ground"], "mass": groups["floor"]}
     title = f"{written.what.title}\n{literal(name)}"

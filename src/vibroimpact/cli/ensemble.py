@@ -105,9 +105,8 @@ def ensemble(
     """
     import numpy as np
 
-    from vibroimpact.cli.assembly import draw_bands, is_assembly, refuse
+    from vibroimpact.cli.assembly import draw_bands
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import EnsembleTable
@@ -116,9 +115,8 @@ def ensemble(
     from vibroimpact.uncertainty.sensitivity import peak_sensitivity
 
     what = subject(rig, changes, output.name, masses=True)
-    several = is_assembly(what)
-    if several:
-        refuse(what, normalised=physical is False)
+    several = what.system.by_mass
+    what.refuse_of_masses(normalised=physical is False)
     table = what.study.ensemble if what.study else EnsembleTable()
     distributions = opt.by_path("--uncertain", uncertain) or table.uncertain or {}
     if not distributions:
@@ -133,7 +131,7 @@ def ensemble(
     response = partial(vi.sweeps, frequencies=grid, threads=threads, where=where)
     chosen = opt.stated(seed=table.seed if seed is None else seed)
     indices = {}
-    with results(what, output) as written, progress_bar("sweeping") as progress:
+    with results(what, output) as written, written.progress("sweeping") as progress:
         data = vi.ensemble(
             shaken,
             distributions,

@@ -88,9 +88,9 @@ def _as_option(message: str, words: Sequence[str]) -> str:
     field = _FIELD.match(message)
     if field is None:
         return message
-    written = {word.partition("=")[0] for word in words}
-    option = next((option for option in _options(field[1]) if option in written), None)
-    return option + message[field.end(1) :] if option else message
+    option = f"--{field[1].replace('_', '-').rpartition('.')[2]}"
+    is_written = any(word.partition("=")[0] == option for word in words)
+    return option + message[field.end(1) :] if is_written else message
 
 
 def _in_options(message: str, renamed: Mapping[str, str]) -> str:
@@ -99,11 +99,6 @@ def _in_options(message: str, renamed: Mapping[str, str]) -> str:
         name = re.escape(argument)
         message = re.sub(rf"^{name}(?=(\[[^\]]*\])?: )|\b{name}(?=\[\d+\])", option, message)
     return message
-
-
-def _options(field: str) -> list[str]:
-    """Return the options that set a field."""
-    return [f"--{field.replace('_', '-').rpartition('.')[2]}"]
 
 
 def _quoting(words: Sequence[str]) -> str:

@@ -7,9 +7,11 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+import vibroimpact as vi
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.garbage_collection import search_as_usual
+from vibroimpact.errors import InputError
 
 
 @calls(None, "Server")
@@ -54,12 +56,12 @@ def explore(
         contains the compiled engine: in a browser it computes rigs with linear laws by itself,
         without scenarios, unstable orbits and the map. Default: no file.
     """
+    import asyncio
+
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
-    from vibroimpact.errors import InputError
     from vibroimpact.explorer.run import LOOPBACK, serve
     from vibroimpact.explorer.state import begin
-    from vibroimpact.model.rig import Rig
 
     if not 0 <= port <= 65535:
         raise InputError(f"--port: {port}; pass a whole number from 0 to 65535")
@@ -68,7 +70,7 @@ def explore(
     span = (table.start, table.to) if table.start and table.to else None
     if span is None and what.published:
         span = (0.5, 5.0)  # the range of the published tests
-    first = begin(Rig(what.oscillator, what.repeated), what.name, span)
+    first = begin(vi.Rig(what.oscillator, what.repeated), what.name, span)
 
     if save is not None:
         from vibroimpact.explorer.offline_page import page
@@ -99,7 +101,7 @@ def explore(
 
     try:
         with search_as_usual():
-            serve(first, announce, host, port)
+            asyncio.run(serve(first, announce, host, port))
     except KeyboardInterrupt:
         print("The explorer has stopped.")
     return 0

@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
 _PUBLISHED = (0.5, 5.0, 0.01)
 """From, to and step in Hz: the range of the published tests, with a tenth of their step."""
-_PUBLISHED_SPAN = (0.3, 5.0)
+_PUBLISHED_LOW = 0.3
+"""Lowest frequency of branches in Hz."""
 _LOW, _SPAN_LOW, _HIGH, _STEPS = 0.45, 0.27, 4.5, 110.0
-"""The same ranges, divided by the natural frequency of the published rig. The last number is the
+"""The same values, divided by the natural frequency of the published rig. The last number is the
 number of steps per natural frequency."""
 
 MOST = 1_000_000
@@ -58,18 +59,12 @@ def default_span(what: Subject) -> Span:
     It starts lower than the range of a sweep, because branches are cheap to compute there. If the
     study states an end of the range for its sweep, this end is also used for its branches.
     """
-    natural = what.system.angular_frequency / math.tau
-    low: float | None
-    high: float | None
+    low, high, _ = default_range(what)
     if what.published:
-        low, high = _PUBLISHED_SPAN
-    elif natural > 0.0:
-        low, high = _short(_SPAN_LOW * natural), _short(_HIGH * natural)
-    else:
-        low = high = None
-    table = what.study.sweep if what.study else None
-    if table is None:
-        return low, high
+        low = _PUBLISHED_LOW
+    elif low is not None:
+        low = _short(_SPAN_LOW * what.system.angular_frequency / math.tau)
+    table = what.sweep_table
     if table.frequencies and len(table.frequencies) > 1:
         return min(table.frequencies), max(table.frequencies)
     return table.start or low, table.to or high
@@ -125,21 +120,9 @@ def list_frequencies(
     table: SweepTable | None,
     default: Range,
 ) -> tuple[float, ...] | tuple[str, ...]:
-    """Return the frequencies of a sweep. Options take precedence over the study.
+    """Return the frequencies of a sweep (Hz), or the texts of a list, which the sweep reads.
 
-    Parameters
-    ----------
-    start, stop, step, listed
-        Values of the options ``--from``, ``--to``, ``--step`` and ``--frequencies``.
-    table
-        Table ``[sweep]`` of the study.
-    default
-        Default of from, to and step in Hz. None if there is no default.
-
-    Returns
-    -------
-    tuple
-        Numbers in Hz, or the texts of a list of frequencies, which the sweep converts to numbers.
+    Options take precedence over the table ``[sweep]`` of the study, and the table over the default.
 
     Raises
     ------

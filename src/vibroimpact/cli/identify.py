@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -10,6 +10,9 @@ import vibroimpact as vi
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @calls("identify", "Fit", tie="ties", prior="priors", bootstrap="draws")
@@ -105,16 +108,11 @@ def identify(
         Other models that are fitted for comparison: hertz (Hertzian contacts), softening (a
         softening isolator) or hertz,softening (both models). Default: none.
     """
-    from vibroimpact.cli.measured import (
-        base_acceleration,
-        pair,
-        shaking_of_tests,
-        with_amplitude,
-    )
-    from vibroimpact.cli.output import progress_bar, tell
+    from vibroimpact.cli.output import tell
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.identification.model_selection import OWN_MODEL, fit_models
+    from vibroimpact.measurements.read import CALL
     from vibroimpact.reports.fit_summary import fit_summary
 
     if not data:
@@ -124,15 +122,17 @@ def identify(
         "units": opt.by_name("--units", units),
         "group": group,
         "decimal": decimal,
-        "amplitude": base_acceleration(changes.amplitude),
+        "amplitude": _base_acceleration(changes.amplitude),
     }
     tests = [vi.read_measurement(path, **reading) for path in data]
-    tests = [with_amplitude(test, changes.amplitude) for test in tests]
-    stated = None if changes.amplitude else shaking_of_tests(tests)
+    if changes.amplitude is not None:  # replaces the amplitude in the files
+        of_option = {"amplitude": changes.amplitude, "amplitude_source": CALL}
+        tests = [test.assign_attrs(of_option) for test in tests]
+    stated = None if changes.amplitude else _shaking_of_tests(tests)
     what = subject(rig, changes, output.name, otherwise=stated)
     names = [name.strip().replace("-", "_") for name in free.split(",")]
     limits = {
-        name: pair(text, "--bounds") for name, text in opt.by_name("--bounds", bounds).items()
+        name: _pair(text, "--bounds") for name, text in opt.by_name("--bounds", bounds).items()
     }
     if strange := set(limits) - set(names):
         raise InputError(
@@ -147,7 +147,7 @@ def identify(
             [name.strip() for name in compare.split(",")] if compare else [],
             each=[name.strip() for name in each.split(",")] if each else [],
             ties=opt.by_name("--tie", tie),
-            priors={name: pair(text, "--prior") for name, text in prior},
+            priors={name: _pair(text, "--prior") for name, text in prior},
             noise=noise,
             window=window,
             steady=steady,
@@ -155,7 +155,7 @@ def identify(
             starts=starts,
             threads=threads,
             draws=bootstrap,
-            bar=progress_bar,
+            bar=written.progress,
         )
         reported = {"": fits.own_fit}
         if fits.best_name != OWN_MODEL:
@@ -170,3 +170,44 @@ def identify(
     text, facts = fit_summary(fits, tests)
     tell(text, facts, written.folder, written.files, output.json)
     return 0
+
+
+def _shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
+    """Return the shaking of the base that the files state, or None if a file does not state it."""
+    if any("amplitude" not in t.attrs and "base_acceleration" not in t for t in tests):
+        return None
+    return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
+
+
+def _base_acceleration(amplitude: str | None) -> str | None:
+    """Return the amplitude of the option if it is an acceleration, as `read_measurement` takes it.
+
+    An amplitude of a displacement or of a force is written into the tests after they are read.
+    """
+    from vibroimpact.model.quantities import ACCELERATION
+    from vibroimpact.model.units import to_si
+
+    try:
+        to_si(amplitude, ACCELERATION, "--amplitude")
+    except InputError:
+        return None
+    return amplitude
+
+
+def _pair(text: str, option: str) -> tuple[str, str]:
+    """Read two values that are separated by a colon.
+
+    Raises
+    ------
+    InputError
+        If there is no colon.
+    """
+    low, mark, high = text.partition(":")
+    if not mark:
+        what, example = "the lowest and the highest value", "5mm:8mm"
+        if option == "--prior":
+            what, example = "a mean and a standard deviation", "7mm:1mm"
+        raise InputError(
+            f"{option}: {text!r}; pass {what} with a colon between them, such as {example}"
+        )
+    return low, high

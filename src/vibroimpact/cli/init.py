@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from importlib import resources
+from pathlib import Path
 from typing import Literal
 
 from vibroimpact.cli import options as opt
@@ -33,8 +36,6 @@ def init(file: opt.FileName, /, *, kind: Kind = "mass") -> int:
         each other. frame: an isolated frame of three storeys between two walls. record: an isolated
         building in an earthquake, with a synthetic record in the file NAME-record.csv.
     """
-    from pathlib import Path
-
     from vibroimpact.datasets.files import write_whole
 
     path = Path(file)
@@ -56,23 +57,19 @@ def init(file: opt.FileName, /, *, kind: Kind = "mass") -> int:
     return 0
 
 
-def _text(kind: Kind, path: object, record: object) -> str:
+def _text(kind: Kind, path: Path, record: Path) -> str:
     """Return the text of a study file, in whose comments the paths stand."""
-    from importlib.resources import files
-    from pathlib import Path
-
-    text = files("vibroimpact.cli").joinpath("study_files", f"{kind}.toml").read_text("utf-8")
+    files = resources.files("vibroimpact.cli") / "study_files"
+    text = (files / f"{kind}.toml").read_text("utf-8")
     named = text.replace("{file}", str(path))
     # The path of a record is relative to the study file; in the comments it is that of the user.
     before, key, after = named.partition("\nrecord = ")
     before = before.replace("{record}", str(record))
-    return _aligned(before) + key + after.replace("{record}", Path(str(record)).name)
+    return _aligned(before) + key + after.replace("{record}", record.name)
 
 
 def _aligned(text: str) -> str:
     """Align the descriptions of the commands in a comment, which follow two or more spaces."""
-    import re
-
     shown = re.compile(r"^(#   vibroimpact .*?)  +(?=\S)", re.MULTILINE)
     wide = max(len(command) for command in shown.findall(text))
     return shown.sub(lambda match: f"{match[1]:{wide}}  ", text)

@@ -71,7 +71,6 @@ def manifolds(
         Number of initial states along each axis of the grid on which the basins in the figure are
         computed. Default: 300.
     """
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.description import motion_parameters
@@ -81,7 +80,7 @@ def manifolds(
     shaken, window = states.rig(what), states.window()
     near = [state("--saddle", text, shaken.harmonic.phase) for text in saddle]
     with results(what, output, shaken.harmonic.frequency) as written:
-        with progress_bar("computing manifolds") as progress:
+        with written.progress("computing manifolds") as progress:
             data = vi.manifolds(
                 shaken,
                 near or None,
@@ -97,9 +96,7 @@ def manifolds(
             below = vi.basins(shaken, *sides, nodes=nodes, threads=threads, progress=progress)
         written.write(data, "manifolds", figures.basin_portrait, drawn=below, manifolds=data)
     if "notes" in data.attrs:  # the file names arguments, and the summary options
-        data.attrs["notes"] = re.sub(r"(?<=; raise )\w+", _option, data.attrs["notes"])
+        data.attrs["notes"] = re.sub(
+            r"(?<=; raise )\w+", lambda name: f"--{name[0].replace('_', '-')}", data.attrs["notes"]
+        )
     return written.tell(facts.facts(data), facts.text(data))
-
-
-def _option(argument: re.Match[str]) -> str:
-    return f"--{argument[0].replace('_', '-')}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.vary import Vary, read_vary_text
+from vibroimpact.cli.vary import Varied, Vary, read_vary_text
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -97,7 +97,6 @@ def scenario_map(
     """
     from rich.text import Text
 
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import scenario_map as facts
@@ -117,17 +116,17 @@ def scenario_map(
             "--vary amplitude=0.01g:0.1g"
         )
     used = thresholds.thresholds()
-    names = [name for name, *_ in axes]
+    names = [one.name for one in axes]
     if names[0] == names[1]:
         raise InputError(f"--vary: {names[0]!r} is given twice; pass two different parameters")
-    ending = f"{'-'.join(names).replace('_', '-').replace('.', '-')}-map"
+    ending = "-".join([*(one.ending for one in axes), "map"])
     with results(what, output) as written:
         written.files["data"] = store = written.path(ending, "zarr")
-        with progress_bar("computing the map") as progress:
+        with written.progress("computing the map") as progress:
             data = vi.scenario_map(
                 what.rig,
-                {name: values for name, values, _ in axes},
-                spacing={name: spacing for name, _, spacing in axes},
+                {one.name: one.values(_NODES) for one in axes},
+                spacing={one.name: "log" if one.logarithmic else "linear" for one in axes},
                 step=step,
                 refine=refine,
                 thresholds=used,
@@ -138,7 +137,7 @@ def scenario_map(
             )
         edge = None
         if border:
-            with progress_bar("following the border") as progress:
+            with written.progress("following the border") as progress:
                 edge = jump_border(data, threads=threads, where=where, progress=progress)
         constants = facts.constants(what.rig, *names)
         title = f"{what.title}: {constants}"
@@ -149,8 +148,8 @@ def scenario_map(
     )
 
 
-def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], Literal["log", "linear"]]:
-    """Read an axis: its name, its values in SI units, and "log" or "linear"."""
+def _axis(path: str, text: str, of: Of) -> Varied:
+    """Read an axis."""
     from vibroimpact.model.parameters import canonical, usual
     from vibroimpact.scenarios.axes import NAMES
 
@@ -159,5 +158,4 @@ def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], Literal["log"
         raise InputError(
             f"--vary: {path!r} is not an axis of a map; pass one of {', '.join(NAMES)}"
         )
-    one = read_vary_text(path, usual(name, of), text)
-    return name, one.values(_NODES), "log" if one.logarithmic else "linear"
+    return read_vary_text(path, usual(name, of), text)

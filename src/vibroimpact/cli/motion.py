@@ -14,7 +14,6 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import AssemblyState
-    from vibroimpact.model.rig import Rig
 
 MOST_COLUMNS = 6
 """Largest number of columns that fit on a page."""
@@ -75,8 +74,6 @@ def motion(
         Of several masses, an initial value, COORDINATE=VALUE, such as velocity.ball=0.1m/s. The
         option may be repeated. Default: the static equilibrium.
     """
-    from vibroimpact.cli.assembly import is_assembly
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import motions as facts
@@ -85,7 +82,7 @@ def motion(
 
     what = subject(rig, changes, output.name, masses=True)
     shaken = _rigs(what, frequency)
-    if is_assembly(what):
+    if what.system.by_mass:
         return _of_masses(what, shaken, samples, named_state("--start", start), output)
     if start:
         raise InputError(
@@ -96,7 +93,7 @@ def motion(
     with results(what, output) as written:
         by_frequency = {}
         for hertz, one in shaken.items():
-            with progress_bar("finding motions") as progress:
+            with written.progress("finding motions") as progress:
                 by_frequency[hertz] = named_motions(one, branch, **options, progress=progress)
         drawn = {
             hertz: {name: data for name, data in motions.items() if data.sizes["time"]}
@@ -121,14 +118,13 @@ def motion(
 
 def _of_masses(
     what: Subject,
-    shaken: dict[float, Rig],
+    shaken: dict[float, vi.Rig],
     samples: int,
     start: AssemblyState | None,
     output: opt.OutputOptions,
 ) -> int:
     """Find, draw and print the steady motion of several masses that is reached from a state."""
     from vibroimpact.cli.assembly import write_motion
-    from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.facts import assembly as facts
     from vibroimpact.model.frequency_text import forcing, forcing_slug
@@ -141,7 +137,7 @@ def _of_masses(
         )
     ((hertz, one),) = shaken.items()
     with results(what, output) as written:
-        with progress_bar("finding motions") as progress:
+        with written.progress("finding motions") as progress:
             data = with_spectrum(vi.steady(one, start, samples, progress=progress))
         title, ending = f"{what.title}, {forcing(hertz, 10)}", f"{forcing_slug(hertz)}-motion"
         write_motion(written, data, ending, title, None)
@@ -151,7 +147,7 @@ def _of_masses(
     return written.tell(summary, facts.steady_text(summary))
 
 
-def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
+def _rigs(what: Subject, frequency: str | None) -> dict[float, vi.Rig]:
     """Return the rig at each frequency of the option, or at the frequency in the study."""
     texts = [None] if frequency is None else [part.strip() for part in frequency.split(",")]
     rigs = {one.periodic.frequency: one for one in (rig_at(what, text) for text in texts)}

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from cyclopts import Group, Parameter, Token
 
+import vibroimpact as vi
 from vibroimpact.errors import InputError
-
-if TYPE_CHECKING:
-    from vibroimpact.scenarios.thresholds import Thresholds
 
 RIG = Group("Rig (details: vibroimpact help rigs)", sort_key=2)
 COMPUTATION = Group("Computation", sort_key=3)
@@ -68,6 +67,16 @@ Frequency: TypeAlias = Annotated[
         allow_leading_hyphen=True,
         help="Forcing frequency, such as 2Hz. Default: the frequency in the study file (table "
         "[simulate]). If there is none, the option is required, unless a record shakes the rig.",
+    ),
+]
+Compute: TypeAlias = Annotated[
+    tuple[str, ...],
+    Parameter(
+        negative="",
+        help="Compute an own output of each motion, such as 'power [W] = "
+        "mean(isolator.damping*velocity**2)': its name, its units, and a formula of time "
+        "histories, numbers of the rig, and max, min, mean, rms and integral over one period. The "
+        "option may be repeated.",
     ),
 ]
 Threads: TypeAlias = Annotated[
@@ -139,6 +148,32 @@ def by_path(option: str, texts: Sequence[str]) -> dict[str, str]:
     return values
 
 
+_OUTPUT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*=(?!=)\s*(.+)", re.DOTALL)
+
+
+def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
+    """Read outputs such as ``power [W] = mean(isolator.damping*velocity**2)``, or return None.
+
+    Raises
+    ------
+    InputError
+        If a text is not a name with a formula.
+    """
+    outputs: dict[str, vi.Output] = {}
+    for text in texts:
+        match = _OUTPUT.fullmatch(text)
+        if match is None:
+            raise InputError(
+                f"--compute: {text!r} is not a name with a formula; write it as 'power [W] = "
+                "mean(isolator.damping*velocity**2)'"
+            )
+        name, units, formula = match.groups()
+        if name in outputs:
+            raise InputError(f"--compute: {name!r} is given twice; remove one of the two")
+        outputs[name] = vi.Output(formula, units=(units or "").strip() or "1")
+    return outputs or None
+
+
 def stated(**options: Any) -> dict[str, Any]:
     """Return the options that have a value. The others get the defaults of the function."""
     return {name: value for name, value in options.items() if value is not None}
@@ -191,12 +226,9 @@ class ThresholdOptions:
     deformation of the bumper. If the penetration divided by the gap is larger than this limit, a
     contact does not count as grazing. Default: 0.1."""
 
-    def thresholds(self) -> Thresholds:
+    def thresholds(self) -> vi.Thresholds:
         """Return the thresholds. A threshold without an option has its default."""
-        from vibroimpact.scenarios.thresholds import Thresholds
-
-        own = {name: getattr(self, name) for name in Thresholds.names()}
-        return Thresholds(**{name: value for name, value in own.items() if value is not None})
+        return vi.Thresholds(**stated(**vars(self)))
 
 
 @Parameter(name="*")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 WIDTH = 100
-"""Number of columns of a summary in a file."""
+"""Number of columns of a summary in a file or a pipe."""
 
 _CUT = "…"
 """Character that rich writes where it leaves out text."""
@@ -203,13 +203,6 @@ def _wide_enough(summary: RenderableType, width: int) -> int:
             break
         width += 1
     return width
-
-
-def as_plain_text(summary: RenderableType) -> str:
-    """Return a summary as plain text with `WIDTH` columns."""
-    from vibroimpact.facts.tables import as_text
-
-    return as_text(summary, WIDTH)
 
 
 def warn(message: str) -> None:

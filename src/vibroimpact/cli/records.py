@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from cyclopts import Group, Parameter
 
+import vibroimpact as vi
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Record
-
 READING = Group("Reading of records (default of each option: what the file states)", sort_key=1)
 
 Scale: TypeAlias = Annotated[
@@ -65,7 +64,7 @@ class RecordOptions:
         """Return the options as arguments of `Record.read`, without the component."""
         return {"unit": self.unit, "step": self.step, "decimal": self.decimal}
 
-    def read(self, files: Iterable[str]) -> dict[str, Record]:
+    def read(self, files: Iterable[str]) -> dict[str, vi.Record]:
         """Read the files of records, by their names.
 
         Raises
@@ -73,9 +72,7 @@ class RecordOptions:
         InputError
             If one cannot be read, or two have one name.
         """
-        from vibroimpact.model import Record
-
-        records: dict[str, Record] = {}
+        records: dict[str, vi.Record] = {}
         names = list(files)
         options = (("--component", self.component), ("--unit", self.unit), ("--step", self.step))
         said = (one_or_each(option, text, len(names)) for option, text in options)
@@ -87,7 +84,9 @@ class RecordOptions:
                     f"RECORD: {file!r} has the same file name as another record; rename one of the "
                     "two files"
                 )
-            records[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
+            records[name] = vi.Record.read(
+                file, component, unit=unit, step=step, decimal=self.decimal
+            )
         return records
 
 
@@ -139,12 +138,8 @@ AS_STATED = RecordOptions()
 def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
     """Return the paths of the records that the study lists in ``[design]``.
 
-    Parameters
-    ----------
-    rig
-        The study file. A laboratory case has no records.
-    with_own_record
-        Whether they are returned if the excitation of the study is itself a record.
+    A laboratory case has none. Without `with_own_record`, neither has a study whose excitation is a
+    record.
     """
     from vibroimpact.cli.study import read_study
 
@@ -159,7 +154,7 @@ def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
     return [str(path.parent / name) for name in study.design.records or []]
 
 
-def record_of_study(what: Subject) -> dict[str, Record]:
+def record_of_study(what: Subject) -> dict[str, vi.Record]:
     """Return the record that is the excitation of a study.
 
     Raises
@@ -167,9 +162,7 @@ def record_of_study(what: Subject) -> dict[str, Record]:
     InputError
         If the excitation of the study is not a record.
     """
-    from vibroimpact.model import Record
-
-    if not isinstance(what.shaking, Record):
+    if not isinstance(what.shaking, vi.Record):
         raise InputError(
             "RECORD: missing; pass the file of a record, or a study that has a record as its "
             "excitation"
@@ -179,8 +172,8 @@ def record_of_study(what: Subject) -> dict[str, Record]:
 
 
 def scale_records(
-    records: dict[str, Record], scale: str | None, peak: str | None
-) -> dict[str, Record]:
+    records: dict[str, vi.Record], scale: str | None, peak: str | None
+) -> dict[str, vi.Record]:
     """Multiply records by factors, or scale them to peaks: one for all, or one per record."""
     if scale is None and peak is None:
         return records
@@ -193,8 +186,8 @@ def scale_records(
 
 
 def records_or_sines(
-    what: Subject, named_records: dict[str, Record], scale: str | None, peak: str | None
-) -> dict[str, Record] | None:
+    what: Subject, named_records: dict[str, vi.Record], scale: str | None, peak: str | None
+) -> dict[str, vi.Record] | None:
     """Return the scaled records of the options or of the study. None means sines.
 
     Raises
@@ -202,9 +195,9 @@ def records_or_sines(
     InputError
         If records shall be scaled, but there are none.
     """
-    from vibroimpact.model import Record
-
-    records = named_records or (record_of_study(what) if isinstance(what.shaking, Record) else {})
+    records = named_records or (
+        record_of_study(what) if isinstance(what.shaking, vi.Record) else {}
+    )
     for option, value in (("--scale", scale), ("--peak", peak)):
         if value is not None and not records:
             raise InputError(

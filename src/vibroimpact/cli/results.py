@@ -5,11 +5,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import vibroimpact as vi
 from vibroimpact.cli.options import OutputOptions
-from vibroimpact.cli.output import Folder, output_folder, tell
+from vibroimpact.cli.output import Folder, output_folder, progress_bar, tell
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,17 +20,17 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
 
+@dataclass
 class Results:
-    """The files of a command about one rig, and the summary that lists them."""
+    """The files of a command about one rig, its progress, and the summary that lists the files."""
 
-    def __init__(
-        self, what: Subject, output: OutputOptions, folder: Folder, frequency: float | None
-    ) -> None:
-        self.what = what
-        self.frequency = frequency
-        self.output = output
-        self.folder = folder
-        self.files: dict[str, Path] = {}
+    what: Subject
+    output: OutputOptions
+    folder: Folder
+    frequency: float | None
+    files: dict[str, Path] = field(default_factory=dict)
+
+    progress = staticmethod(progress_bar)
 
     def path(self, ending: str, suffix: str) -> Path:
         """Return the path of the file NAME-ENDING.SUFFIX, or NAME-FREQUENCY-ENDING.SUFFIX."""
@@ -71,11 +73,9 @@ class Results:
         drawn
             Data of the figure, if they differ from the saved data. Default: the saved data.
         """
-        from vibroimpact.datasets.files import save
-
         for one in data.values() if isinstance(data, dict) else [data]:
             one.attrs["title"] = self.what.name
-        self.files["data"] = save(data, self.path(ending, "nc"))
+        self.files["data"] = vi.save(data, self.path(ending, "nc"))
         shown = data if drawn is None else drawn
         self.draw("figure", ending, draw(shown, title=title or self.title, **options))
 

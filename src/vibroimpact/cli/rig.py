@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions, by_path
 from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
@@ -23,7 +23,7 @@ from vibroimpact.model import (
 )
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import QUANTITIES, sized
-from vibroimpact.model.laboratory import Case, Parameters
+from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.names import check_name, file_stem, kept_letters, literal
 from vibroimpact.model.parameters import canonical, parameters, set_values
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
@@ -119,6 +119,22 @@ class Subject(NamedTuple):
         """Return the periodic shaking at a frequency (Hz)."""
         changed = {} if phase is None else {"phase": phase}
         return self.repeated.replace(frequency=hertz, **changed)
+
+    def refuse_of_masses(self, **options: Any) -> None:
+        """Refuse options that only a rig of one mass has, if this one has several masses.
+
+        Raises
+        ------
+        InputError
+            If it has, and one of the options has a value.
+        """
+        for option, value in options.items() if self.system.by_mass else ():
+            if value is not None and value is not False:
+                words = "set" if value is True else repr(value)
+                raise InputError(
+                    f"--{option}: {words}, but {self.name!r} has several masses, for which this "
+                    f"option is not available; remove --{option}"
+                )
 
     @property
     def title(self) -> str:
@@ -292,17 +308,13 @@ def _named(text: str, options: RigOptions) -> _Named:
         raise InputError(f"{error}{hint}") from None
 
 
-def _shaken_by(case: Case) -> Harmonic:
-    return Harmonic(case.amplitude, 1.0)
-
-
 def _of_case(code: str, parameters: Parameters | None) -> _Named:
     case = laboratory.case(code, parameters or "table")
-    if parameters is None or parameters == "table":
-        return _Named(case.code, case.slug, case.oscillator, _shaken_by(case), None, True)
-    # Two parameter sets of one test are two rigs. They must not overwrite each other's files.
-    title, first = f"{case.code}, {parameters} parameters", f"{case.slug}-{parameters}"
-    return _Named(title, first, case.oscillator, _shaken_by(case), None, True)
+    title, slug = case.code, case.slug
+    if parameters not in (None, "table"):
+        # Two parameter sets of one test are two rigs. They must not overwrite each other's files.
+        title, slug = f"{title}, {parameters} parameters", f"{slug}-{parameters}"
+    return _Named(title, slug, case.oscillator, Harmonic(case.amplitude, 1.0), None, True)
 
 
 def _of_study(path: str, study: Study, options: RigOptions) -> _Named:

@@ -89,14 +89,12 @@ def simulate(
         Write an animation of several masses, too: gif for slides, or html for a page with a slider.
         Default: no animation.
     """
-    from vibroimpact.cli.assembly import is_assembly, write_motion
-    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.assembly import write_motion
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.states import rig_at
     from vibroimpact.facts import assembly as masses
     from vibroimpact.facts import trajectory as facts
-    from vibroimpact.model import Record
     from vibroimpact.model.argument_types import whole
     from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.model.quantities import DIMENSIONLESS
@@ -105,14 +103,14 @@ def simulate(
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
     table = what.simulate_table
     begin = _start(what, displacement, velocity, start)
-    if animation is not None and not is_assembly(what):
+    if animation is not None and not what.system.by_mass:
         raise InputError(
             f"--animation: {animation!r}, but {what.name!r} has one mass; animations are made of "
             "assemblies of several masses; remove --animation"
         )
     samples = table.samples if samples is None else whole(samples, "samples")
     last = to_si(shown, DIMENSIONLESS, "--shown", above=0.0)
-    of_record = isinstance(what.shaking, Record)
+    of_record = isinstance(what.shaking, vi.Record)
     if of_record and frequency is not None:
         raise InputError(
             f"--frequency: {frequency}, but this rig is shaken by a record, which has no forcing "
@@ -122,7 +120,7 @@ def simulate(
     if cycles is None and not of_record:
         cycles = table.cycles or _CYCLES
     with results(what, output) as written:
-        with progress_bar("simulating") as progress:
+        with written.progress("simulating") as progress:
             data = vi.simulate(
                 shaken,
                 cycles,
@@ -133,24 +131,18 @@ def simulate(
             )
         if not data.sizes["time"]:
             raise InputError(f"the motion could not be simulated: {data.attrs['message']}")
-        if is_assembly(what):
-            name, title, cycled = "history", what.title, None
-            if not of_record:
-                hertz = shaken.periodic.frequency
-                name, cycled = f"{forcing_slug(hertz)}-history", last
-                title = (
-                    f"{what.title}, {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
-                )
-            write_motion(written, data, name, title, cycled, animation)
+        title, ending, cycled = what.title, "history", None
+        if not of_record:
+            hertz, cycled = shaken.periodic.frequency, last
+            title += f", {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
+            ending = f"{forcing_slug(hertz)}-history"
+        if what.system.by_mass:
+            write_motion(written, data, ending, title, cycled, animation)
         elif of_record:
-            written.write(data, "history", figures.record_history)
+            written.write(data, ending, figures.record_history, title)
         else:
-            hertz = shaken.harmonic.frequency
-            free = shaken.harmonic.amplitude == 0.0
-            title = f"{what.title}, {'free vibration' if free else forcing(hertz, 10)}"
-            name = f"{forcing_slug(hertz)}-history"
-            written.write(data, name, figures.time_history, title, cycles=last)
-    if is_assembly(what):
+            written.write(data, ending, figures.time_history, title, cycles=cycled)
+    if what.system.by_mass:
         summary = masses.motion_facts(data)
         return written.tell(summary, masses.motion_text(summary))
     return written.tell(facts.facts(data), facts.text(data))
@@ -163,14 +155,13 @@ def _start(
 
     Several masses start at the equilibrium, which is the default of the library function.
     """
-    from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.cli.states import named_state
-    from vibroimpact.model import State, equilibrium, to_si
+    from vibroimpact.model import equilibrium, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     u, v = what.simulate_table.displacement, what.simulate_table.velocity
-    if is_assembly(what):
-        refuse(what, displacement=displacement, velocity=velocity)
+    if what.system.by_mass:
+        what.refuse_of_masses(displacement=displacement, velocity=velocity)
         if u is not None or v:
             raise InputError(
                 "simulate.displacement, simulate.velocity: the rig has several masses; remove "
@@ -186,4 +177,4 @@ def _start(
         u = to_si(displacement, LENGTH, "--displacement")
     elif u is None:
         u = equilibrium(what.oscillator).displacement
-    return State(u, v if velocity is None else to_si(velocity, VELOCITY, "--velocity"))
+    return vi.State(u, v if velocity is None else to_si(velocity, VELOCITY, "--velocity"))

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from cyclopts import Group, Parameter
 
+import vibroimpact as vi
 from vibroimpact.cli.options import by_path
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import AssemblyState, State
-    from vibroimpact.model.rig import Rig
+    from vibroimpact.model import AssemblyState
 
 _OfStates: TypeAlias = Annotated[
     str | None,
@@ -49,7 +49,7 @@ class StateOptions:
         """Return the ranges of displacement and velocity. A range without an option is None."""
         return _range("--displacement", self.displacement), _range("--velocity", self.velocity)
 
-    def rig(self, what: Subject, along: str = "") -> Rig:
+    def rig(self, what: Subject, along: str = "") -> vi.Rig:
         """Return the rig at the frequency and the phase of the options, as `rig_at` does."""
         return rig_at(what, self.frequency, self.phase, along)
 
@@ -57,7 +57,9 @@ class StateOptions:
 ANY_STATES = StateOptions()
 
 
-def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along: str = "") -> Rig:
+def rig_at(
+    what: Subject, frequency: str | None, phase: str | None = None, along: str = ""
+) -> vi.Rig:
     """Return a rig at a frequency and a phase. The defaults are those of the study.
 
     `along` is the name of the parameter that is varied. If it is the frequency, the value of the
@@ -88,12 +90,12 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     return rig
 
 
-def fixed_frequency(rig: Rig, *along: str) -> float | None:
+def fixed_frequency(rig: vi.Rig, *along: str) -> float | None:
     """Return the forcing frequency (Hz), unless the frequency is among the varied parameters."""
     return None if "frequency" in along else rig.periodic.frequency
 
 
-def state(option: str, text: str, phase: float | None = None) -> State:
+def state(option: str, text: str, phase: float | None = None) -> vi.State:
     """Read ``DISPLACEMENT,VELOCITY``.
 
     Raises
@@ -101,7 +103,7 @@ def state(option: str, text: str, phase: float | None = None) -> State:
     InputError
         If the text is invalid.
     """
-    from vibroimpact.model import State, to_si
+    from vibroimpact.model import to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     parts = text.split(",")
@@ -114,7 +116,7 @@ def state(option: str, text: str, phase: float | None = None) -> State:
         to_si(part.strip(), quantity, option)
         for part, quantity in zip(parts, (LENGTH, VELOCITY), strict=True)
     )
-    return State(u, v, phase=phase)
+    return vi.State(u, v, phase=phase)
 
 
 def plane(what: Subject, texts: Sequence[str]) -> dict[str, tuple[str, str]] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -10,7 +10,6 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.own_outputs import Compute, own_outputs
 
 
 @calls("sweep", "Frequencies", direction="directions", compute="outputs")
@@ -24,7 +23,7 @@ def sweep(
     frequencies: opt.Text = None,
     direction: Literal["forward", "backward", "both"] | None = None,
     physical: opt.Physical = None,
-    compute: Compute = (),
+    compute: opt.Compute = (),
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
     tolerance: Annotated[float | None, Parameter(group=opt.COMPUTATION)] = None,
@@ -86,9 +85,8 @@ def sweep(
     """
     from rich.console import Group
 
-    from vibroimpact.cli.assembly import draw_sweep, is_assembly, refuse
+    from vibroimpact.cli.assembly import draw_sweep
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
-    from vibroimpact.cli.output import as_plain_text, progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.files import write_whole
@@ -96,19 +94,19 @@ def sweep(
     from vibroimpact.facts import assembly_sweep as masses
     from vibroimpact.facts import rig as rig_facts
     from vibroimpact.facts import sweeps
+    from vibroimpact.facts.tables import as_text
     from vibroimpact.response import resonance
     from vibroimpact.response.confirmed_jumps import confirm_jumps, confirmed_mass_jumps
     from vibroimpact.response.sweep import advice
 
     what = subject(rig, changes, output.name, masses=True)
-    if is_assembly(what):
-        refuse(what, normalised=physical is False)
+    what.refuse_of_masses(normalised=physical is False)
     table = what.sweep_table
     grid = list_frequencies(start, stop, step, frequencies, table, default_range(what))
-    outputs = own_outputs(compute)
+    outputs = opt.own_outputs(compute)
     way = direction or table.direction or "both"
     with results(what, output) as written:
-        with progress_bar("sweeping") as progress:
+        with written.progress("sweeping") as progress:
             data = vi.sweep(
                 what.rig,
                 grid,
@@ -123,19 +121,20 @@ def sweep(
                 progress=progress,
             )
         hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
-        if is_assembly(what):
+        summary: dict[str, Any]
+        if what.system.by_mass:
             written.write(data, "sweep", figures.mass_resonance)
             draw_sweep(written, data)
-            jumps = confirmed_mass_jumps(what.rig, data)
-            of_masses = masses.text(data, jumps, hints)
-            summary = as_plain_text(Group(rig_facts.text(what.rig), of_masses))
-            written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)
-            return written.tell(masses.facts(data, jumps, hints), of_masses)
-        features = confirm_jumps(what.rig, data, resonance.features(data))
-        text = sweeps.text(data, features, hints)
-        curves = figures.resonance_curves
-        units = draws_physical(data, physical)
-        written.write(data, "sweep", curves, curve_features=features, physical=units)
-        summary = as_plain_text(Group(rig_facts.text(what.rig), text))
-        written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)
-    return written.tell(sweeps.facts(data, features, hints), text)
+            mass_jumps = confirmed_mass_jumps(what.rig, data)
+            summary = masses.facts(data, mass_jumps, hints)
+            text = masses.text(data, mass_jumps, hints)
+        else:
+            features = confirm_jumps(what.rig, data, resonance.features(data))
+            units = draws_physical(data, physical)
+            curves = figures.resonance_curves
+            written.write(data, "sweep", curves, curve_features=features, physical=units)
+            summary = sweeps.facts(data, features, hints)
+            text = sweeps.text(data, features, hints)
+        whole = as_text(Group(rig_facts.text(what.rig), text))
+        written.files["summary"] = write_whole(written.path("sweep", "txt"), whole)
+    return written.tell(summary, text)

@@ -56,10 +56,7 @@ def describe(
         In tests: if it has other dims than the registry states.
     """
     known = {one.name: Variable(one.units, one.long_name) for one in varied}
-    if parameters is None and "parameters" in dataset.attrs:
-        still = base_at_rest(dataset)
-    else:
-        still = parameters is not None and _stands(parameters)
+    still = base_at_rest(dataset) if parameters is None else _stands(parameters)
     for name in dataset.variables:
         variable = VARIABLES.get(str(name)) or known[str(name)]
         if CHECKS_DIMS and name not in known:
@@ -100,13 +97,7 @@ def _assumptions(dataset: xr.Dataset, parameters: dict[str, Any] | None) -> Iter
 
 
 def _check_dims(name: str, dims: tuple[Hashable, ...]) -> None:
-    """Check that a variable may have these dims.
-
-    Raises
-    ------
-    ValueError
-        If it may not.
-    """
+    """Raise an error if a variable may not have these dims."""
     words = [str(one) for one in dims]
     if words != [name] and not VARIABLES[name].has_dims(words, NAMED_DIMS):
         raise ValueError(f"{name}: its dims {words} are none of {VARIABLES[name].dims}")
@@ -167,6 +158,12 @@ def own_outputs(data: xr.Dataset) -> list[str]:
 def noted(data: xr.Dataset) -> list[str]:
     """Return the notes of a dataset, as a list of lines."""
     return str(data.attrs.get("notes", "")).splitlines()
+
+
+def status_facts(data: xr.Dataset) -> dict[str, str]:
+    """Return the name of the status of one computation, and its message with advice."""
+    name = Status(data["status"].item()).name.lower()
+    return {"status": name, "message": data.attrs["message"]}
 
 
 def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:

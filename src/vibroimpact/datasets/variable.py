@@ -45,15 +45,7 @@ class Variable(NamedTuple):
     whatever another function returns."""
 
     def has_dims(self, dims: Sequence[str], named: Set[str]) -> bool:
-        """Return whether the variable may have these dims.
-
-        Parameters
-        ----------
-        dims
-            The dims.
-        named
-            Dims that are not parameters.
-        """
+        """Return whether the variable may have these dims; those not named are parameters."""
         rest = tuple(one for one in dims if one != self.part)
         rest = rest[1:] if rest[:1] == (SAMPLES,) else rest
         return any(_fits(one.split(), rest, named) for one in self.dims)

@@ -11,6 +11,7 @@ from vibroimpact.explorer.state import ON_DEMAND, PageState
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.frequency_text import forcing, forcings
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameters import set_values
 from vibroimpact.model.quantities import DIMENSIONLESS as NUMBER
 from vibroimpact.model.quantities import FREQUENCY
@@ -18,7 +19,6 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.written_units import unitless
 
-SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
 """Dimensionless parameters of a stop."""
 OF_RIG = ("isolator_period", "damping_ratio")

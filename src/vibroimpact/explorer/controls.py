@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, SIDES, one_sided
+from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, one_sided
 from vibroimpact.explorer.laws import free_displacement
 from vibroimpact.explorer.state import PageState
 from vibroimpact.model import Model, Oscillator
 from vibroimpact.model.excitation import Of
+from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, Quantity
 from vibroimpact.model.quantities import (

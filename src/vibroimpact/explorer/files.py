@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import base64
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from vibroimpact.datasets.files import save
+from vibroimpact.datasets.files import sealed_bytes
 from vibroimpact.datasets.tables import to_table
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import share
@@ -21,14 +19,7 @@ from vibroimpact.model.names import file_stem
 def made(kind: str, state: PageState, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:
     """Return a file: its name, its media type and its bytes (as Base64 text).
 
-    Parameters
-    ----------
-    kind
-        Kind of file: ``"study"``, ``"python"``, ``"netcdf"`` or ``"csv"``.
-    state
-        The state of the page.
-    swept
-        Function that returns the fine sweep of this state.
+    `swept` returns the fine sweep of the state.
 
     Raises
     ------
@@ -38,7 +29,7 @@ def made(kind: str, state: PageState, swept: Callable[[], xr.Dataset]) -> dict[s
     ways: dict[str, tuple[str, str, Callable[[], bytes]]] = {
         "study": (".toml", "application/toml", lambda: share.study(state).encode()),
         "python": (".py", "text/x-python", lambda: share.program(state).encode()),
-        "netcdf": ("-sweep.nc", "application/x-netcdf", lambda: _netcdf(swept())),
+        "netcdf": ("-sweep.nc", "application/x-netcdf", lambda: sealed_bytes(swept())),
         "csv": ("-sweep.csv", "text/csv", lambda: to_table(swept()).to_csv().encode()),
     }
     if kind not in ways:
@@ -49,10 +40,3 @@ def made(kind: str, state: PageState, swept: Callable[[], xr.Dataset]) -> dict[s
         "mime": mime,
         "bytes": base64.b64encode(write()).decode(),
     }
-
-
-def _netcdf(data: xr.Dataset) -> bytes:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "sweep.nc"
-        save(data, path)
-        return path.read_bytes()

@@ -204,23 +204,18 @@ def _accepts(law: Any) -> Iterator[tuple[str, Accepts]]:
 
 def _fields(law: Any) -> Table:
     return {
-        name: {
-            "quantity": one.quantity.name,
-            "above": one.above,
-            "minimum": one.minimum,
-            "maximum": one.maximum,
-            "accepted": accepted(
-                one.quantity, above=one.above, minimum=one.minimum, maximum=one.maximum
-            ),
-        }
+        name: _bounded(one.quantity, above=one.above, minimum=one.minimum, maximum=one.maximum)
         for name, one in _accepts(law)
     }
 
 
 def _ratio(name: str) -> Table:
-    quantity = PARAMETERS[name].quantity
     bound = {"above": 0.0} if name in change.OF_RIG else {"minimum": 0.0}
-    return {"quantity": quantity.name, **bound, "accepted": accepted(quantity, **bound)}
+    return _bounded(PARAMETERS[name].quantity, **bound)
+
+
+def _bounded(quantity: Quantity, **bounds: float | None) -> Table:
+    return {"quantity": quantity.name, **bounds, "accepted": accepted(quantity, **bounds)}
 
 
 def _number(value: float) -> float | str:

@@ -43,11 +43,8 @@ def preset(name: str) -> PageState:
     if name == BUILDING:
         state = begin(_building(), BUILDING)
         return state._replace(shaking=state.shaking.replace(frequency=0.55))  # its hysteresis
-    if name in _CASES:
-        case = laboratory.case(_CASES[name])
-        return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
-    if name in _codes():
-        case = laboratory.case(name)
+    if name in _CASES or name in _codes():
+        case = laboratory.case(_CASES.get(name, name))
         return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
     raise InputError(f"preset: {shown(name)} is unknown; choose a name in the list of the page")
 

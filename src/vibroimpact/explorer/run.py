@@ -22,39 +22,23 @@ from vibroimpact.model.rig import Rig
 LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
-def serve(
-    first: PageState, ready: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
+async def serve(
+    first: PageState,
+    ready: Callable[[str], None],
+    host: str = LOOPBACK[0],
+    port: int = 0,
+    stop: asyncio.Event | None = None,
 ) -> None:
-    """Serve pages until the program is interrupted.
+    """Serve pages until `stop` is set, or until the program is interrupted.
 
-    Parameters
-    ----------
-    first
-        Initial state of a page.
-    ready
-        Function that is called with the address as soon as the server is ready.
-    host
-        Host name or address to listen on. If it is reachable from other machines, the address
-        contains a token.
-    port
-        Port number. 0 selects a free port.
+    `ready` is called with the address as soon as the server is ready. If the host is reachable from
+    other machines, the address contains a token. Port 0 selects a free port.
 
     Raises
     ------
     InputError
         If the websocket library is not installed, or if the host or the port is invalid or in use.
     """
-    asyncio.run(serving(first, host, port, ready))
-
-
-async def serving(
-    first: PageState,
-    host: str,
-    port: int,
-    ready: Callable[[str], None],
-    stop: asyncio.Event | None = None,
-) -> None:
-    """Serve pages, as `serve` does, until `stop` is set."""
     from vibroimpact.explorer.server import start
 
     token = "" if host in LOOPBACK else secrets.token_urlsafe(24)
@@ -201,7 +185,7 @@ def _background() -> str:
 
             def run() -> None:
                 try:
-                    serve(preset(FIRST), started)
+                    asyncio.run(serve(preset(FIRST), started))
                 except BaseException as error:
                     failed.append(error)
                     ready.set()

@@ -31,7 +31,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from vibroimpact.errors import InputError
-from vibroimpact.explorer.session import Message, Session, Stage
+from vibroimpact.explorer.session import Message, Session, Stage, shown_as
 from vibroimpact.explorer.state import PageState
 from vibroimpact.tasks.threads import Stopped
 
@@ -129,7 +129,7 @@ class Explorer:
         pictures = asyncio.create_task(self._pictures(session, awake, connection.send))
         saving: asyncio.Task[None] | None = None
         try:
-            await connection.send(_text({**session.hello(), **session.last_reports()}))
+            await connection.send(_text({**session.hello(), **shown_as(session.history)}))
             awake.set()
             async for raw in connection:
                 message = _read(raw)
@@ -308,21 +308,9 @@ def _refused(status: HTTPStatus, why: str) -> Response:
 
 
 async def start(first: PageState, host: str, port: int, token: str = "") -> tuple[Server, str]:
-    """Start the server.
+    """Start the server; return it and the address of its page.
 
-    Parameters
-    ----------
-    first
-        Initial state of a page.
-    host, port
-        Host and port on which the server listens. Port 0 selects a free port.
-    token
-        Token that an address must contain. Default: no token is required.
-
-    Returns
-    -------
-    server, address
-        The server, which runs until it is closed, and the address of its page.
+    It runs until it is closed. Port 0 selects a free port. An address contains the token, if any.
 
     Raises
     ------

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable, Iterator
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, NoReturn
 
 import xarray as xr
 
@@ -90,26 +91,24 @@ class Session:
         }
 
     def take(self, message: object) -> Message:
-        """Handle a message of a page, and return the answer.
+        """Handle a message of a page, and return the answer: ``state`` with the knobs.
 
-        Returns
-        -------
-        dict
-            ``state`` with the knobs. If the message is invalid, ``refused`` with the reason; the
-            state does not change then.
+        If the message is invalid, the answer is ``refused`` with the reason, and the state does not
+        change.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
             return {"refused": "message: it is not valid; reload the page"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
-            history = self._next(message)
+            with written_for(None if message["do"] in ("preset", "open") else self.state):
+                history = self._next(message)
             answer = shown_as(history)
         except (InputError, ArithmeticError) as error:
             # Numbers whose products are not finite are reported as a mistake.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
             path = message.get("path") if isinstance(message.get("path"), str) else None
             refused = {"refused": words, "path": path, "n": number}
-            return refused if message.get("do") != "open" else {**refused, **self.last_reports()}
+            return refused if message.get("do") != "open" else {**refused, **shown_as(self.history)}
         self.history = history
         self.asked += 1
         self._dragging = message.get("dragging") is True
@@ -118,16 +117,8 @@ class Session:
             self._sent.pop(kind, None)  # what is put away is made again when it is asked for
         return {**answer, "n": number}
 
-    def last_reports(self) -> Message:
-        """Return the state in the form in which it is sent to the page."""
-        return shown_as(self.history)
-
     def _next(self, message: Message) -> History:
         """What the message makes of the history."""
-        with written_for(None if message["do"] in ("preset", "open") else self.state):
-            return self._done(message)
-
-    def _done(self, message: Message) -> History:
         history, now, do = self.history, self.history.now, message["do"]
         if do == "undo":
             return history.undo()
@@ -163,19 +154,19 @@ class Session:
     def stages(self) -> Iterator[Stage]:
         """Yield the pictures of the present state that are to be computed, quick ones first."""
         state = self.state
-        rig = (state.oscillator, _without_frequency(state), state.span)
+        rig = _of_sweep(state)
         look = (*rig, state.physical)
         seen = (*rig, state.direction, state.shaking.frequency)
-        yield Stage("curves", ("coarse", *look), lambda check: self._curves(state, False, check))
-        yield Stage("motion", ("coarse", *seen), lambda _: self._quick(state))
+        yield Stage("curves", ("coarse", *look), partial(self._curves, state, False))
+        yield Stage("motion", ("coarse", *seen), lambda _: motion.quick(state, self._best(state)))
         yield Stage(
             "scenario", ("coarse", *rig), lambda _: scenario.quick(state, self._swept(state, False))
         )
         if self._dragging:
             return
-        yield Stage("curves", ("fine", *look), lambda check: self._curves(state, True, check))
-        yield Stage("motion", ("fine", *seen), lambda _: self._careful(state))
-        yield Stage("scenario", ("fine", *rig), lambda check: scenario.careful(state, check))
+        yield Stage("curves", ("fine", *look), partial(self._curves, state, True))
+        yield Stage("motion", ("fine", *seen), lambda _: motion.careful(state, self._best(state)))
+        yield Stage("scenario", ("fine", *rig), partial(scenario.careful, state))
         yield from self._on_demand(state, (*look, *seen), seen)
 
     def _on_demand(
@@ -194,14 +185,14 @@ class Session:
             for fine in (False, True):
                 word = "fine" if fine else "coarse"
                 if kind == "basins":
-                    yield Stage(kind, (word, *seen), _starts(state, fine))
+                    yield Stage(kind, (word, *seen), partial(basins.starts, state, fine))
                     continue
                 try:
                     where = plane.plane(state)
                 except (InputError, ArithmeticError) as error:
-                    yield Stage(kind, (word, str(error)), _refusal(error))
+                    yield Stage(kind, (word, str(error)), partial(_refuse, error))
                     break
-                yield Stage(kind, (word, *where), _scenarios(where, fine))
+                yield Stage(kind, (word, *where), partial(plane.scenarios, where, fine))
 
     def wants(self, stage: Stage) -> bool:
         """Return whether neither this picture nor a finer one was sent to the page."""
@@ -272,7 +263,7 @@ class Session:
 
     def _swept(self, state: PageState, fine: bool, progress: Progress | None = None) -> xr.Dataset:
         """The sweep of a state; the last one of either fineness is kept."""
-        key = (state.oscillator, _without_frequency(state), state.span)
+        key = _of_sweep(state)
         held = self._sweeps.get(fine)
         if held is None or held[0] != key:
             held = self._sweeps[fine] = (key, curves.swept(state, fine, progress))
@@ -280,18 +271,12 @@ class Session:
 
     def _best(self, state: PageState) -> xr.Dataset:
         """The fine sweep if it is there."""
-        key = (state.oscillator, _without_frequency(state), state.span)
+        key = _of_sweep(state)
         held = self._sweeps.get(True)
         return held[1] if held and held[0] == key else self._swept(state, False)
 
     def _curves(self, state: PageState, fine: bool, progress: Progress | None = None) -> Message:
         return curves.curves(state, self._swept(state, fine, progress), fine)
-
-    def _quick(self, state: PageState) -> Message:
-        return motion.quick(state, self._best(state))
-
-    def _careful(self, state: PageState) -> Message:
-        return motion.careful(state, self._best(state))
 
 
 def shown_as(history: History) -> Message:
@@ -302,18 +287,12 @@ def shown_as(history: History) -> Message:
     InputError
         If several harmonics shake the rig, or if its isolator has no stiffness.
     """
-    with written_for(history.now):
-        return _shown_as(history)
-
-
-def _shown_as(history: History) -> Message:
-    one_sine(history.now.rig, "amplitude")
-    state, first = history.now, history.first
-    rig = state.oscillator
-    return {
-        "state": {
+    state, rig = history.now, history.now.oscillator
+    with written_for(state):
+        one_sine(state.rig, "amplitude")
+        values = {
             "name": state.name,
-            "controls": [control._asdict() for control in controls(state, first)],
+            "controls": [control._asdict() for control in controls(state, history.first)],
             "laws": {
                 "isolator": rig.isolator.kind,
                 "right": rig.right.kind if rig.right else "none",
@@ -330,15 +309,7 @@ def _shown_as(history: History) -> Message:
             "redo": len(history.future),
             "address": share.address(state),
         }
-    }
-
-
-def _starts(state: PageState, fine: bool) -> Callable[[Progress], Message]:
-    return lambda check: basins.starts(state, fine, check)
-
-
-def _scenarios(where: plane.Plane, fine: bool) -> Callable[[Progress], Message]:
-    return lambda check: plane.scenarios(where, fine, check)
+    return {"state": values}
 
 
 def _bounded(make: Callable[[], Message]) -> Message:
@@ -355,17 +326,14 @@ def _bounded(make: Callable[[], Message]) -> Message:
         raise InputError(_NO_NUMBER) from None
 
 
-def _refusal(error: Exception) -> Callable[[Progress], Message]:
-    def refused(check: Progress) -> Message:
-        raise error
-
-    return refused
+def _refuse(error: Exception, _: Progress) -> NoReturn:
+    raise error
 
 
-def _without_frequency(state: PageState) -> Hashable:
-    """The excitation of a sweep, without the frequency of the selected motion."""
+def _of_sweep(state: PageState) -> tuple[Hashable, ...]:
+    """All that a sweep depends on, which is not the frequency of the selected motion."""
     shaken = state.shaking
-    return shaken.amplitude, shaken.of, shaken.phase
+    return state.oscillator, (shaken.amplitude, shaken.of, shaken.phase), state.span
 
 
 def _text(message: Message, key: str) -> str:

@@ -11,9 +11,8 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.description import motion_parameters, parameters_of_rigs
+from vibroimpact.datasets.description import motion_parameters, parameters_of_rigs, status_facts
 from vibroimpact.facts.number_format import written
-from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import Column, sheet, table_of
 from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import FORCE, MASS

@@ -51,7 +51,8 @@ def facts(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> dict[str, An
         "contact": [
             {"stop": str(stop), **one}
             for stop in data["stop"].values
-            for one in _ranges(data, _hit(data).sel(stop=stop))
+            # The force of a rigid stop that is hit is infinite.
+            for one in _ranges(data, data["peak_force"].sel(stop=stop) > 0.0)
         ],
         "jumps": [one._asdict() for one in jumps.jumps],
         "steep": [one._asdict() for one in jumps.steep],
@@ -59,11 +60,6 @@ def facts(data: xr.Dataset, jumps: MassJumps, advice: list[str]) -> dict[str, An
         "unsettled": _ranges(data, data["motion"] != "periodic"),
         "advice": advice,
     }
-
-
-def _hit(data: xr.Dataset) -> xr.DataArray:
-    """Return where stops are touched. The force of a rigid stop that is hit is infinite."""
-    return data["peak_force"] > 0.0
 
 
 def _largest(data: xr.Dataset) -> dict[str, Any]:

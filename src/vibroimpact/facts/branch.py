@@ -34,7 +34,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     ]
     branches = []
     for number in np.unique(data["branch"].values):
-        prefix = _prefix(data, int(number))
+        prefix = "" if "closed" in data.attrs else f"branch_{number}_"
         mine = data["branch"].values == number
         branches.append(
             {
@@ -112,7 +112,3 @@ def _note(one: Mapping[str, Any]) -> str:
     if one["turns"]:
         return "turns back"
     return str(one["contacts"]) if one["kind"] == "grazing" else ""
-
-
-def _prefix(data: xr.Dataset, number: int) -> str:
-    return "" if "closed" in data.attrs else f"branch_{number}_"

@@ -10,11 +10,11 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from vibroimpact.datasets.description import status_facts
 from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.earthquakes.free_vibration import settles
 from vibroimpact.earthquakes.peak_demands import ENERGIES
 from vibroimpact.facts.number_format import written
-from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import Row, sheet_of, values_text
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.oscillator import SIDES

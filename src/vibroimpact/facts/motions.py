@@ -10,10 +10,9 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.description import base_at_rest, noted, stop_word
+from vibroimpact.datasets.description import base_at_rest, noted, status_facts, stop_word
 from vibroimpact.datasets.stops import plain_values
 from vibroimpact.facts.number_format import written
-from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import (
     Column,
     Row,
@@ -61,7 +60,11 @@ _ROWS = (
         shown=base_at_rest,
         of=(*_FORCES, "transmissibility"),
     ),
-    Row("impacts", lambda data: _impacts(data), of=("impacts",)),
+    Row(
+        "impacts",
+        lambda data: f"{values_text(data, 'impacts')} per cycle{_pressed(data)}",
+        of=("impacts",),
+    ),
 )
 """Rows of a motion. Other numbers of it, which no row has, follow before `_LAST_ROWS`."""
 _LAST_ROWS = (
@@ -198,11 +201,6 @@ def _force(data: xr.Dataset) -> str:
     """Return the force on the base, and its ratio to the exciting force."""
     forces = values_text(data, _FORCES, digits=5)
     return f"{forces}, transmissibility {values_text(data, 'transmissibility')}"
-
-
-def _impacts(data: xr.Dataset) -> str:
-    """Return the impacts per cycle, and a remark on stops that the mass never leaves."""
-    return f"{values_text(data, 'impacts')} per cycle{_pressed(data)}"
 
 
 def _energy(data: xr.Dataset) -> str:

@@ -32,17 +32,12 @@ from vibroimpact.model.written_units import unitless
 
 def facts(rig: Rig) -> dict[str, Any]:
     """Return the rig in SI units and, where they exist, in dimensionless parameters."""
+    about = {"name": rig.name, "vibroimpact_version": __version__}
     if rig.system.by_mass:
-        return {
-            "name": rig.name,
-            "vibroimpact_version": __version__,
-            **assembly.rig_facts(rig.assembly),
-            **_shaking_facts(rig.shaking),
-        }
+        return {**about, **assembly.rig_facts(rig.assembly), **_shaking_facts(rig.shaking)}
     scaled = _dimensionless(rig)
     return {
-        "name": rig.name,
-        "vibroimpact_version": __version__,
+        **about,
         "oscillator": rig.oscillator.model_dump(),
         **_shaking_facts(rig.shaking),
         "natural_frequency": rig.oscillator.angular_frequency / math.tau or None,
@@ -68,7 +63,10 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
         (
             "mass",
             pretty(oscillator.mass, MASS),
-            _natural(oscillator.natural_frequency) if sprung else "",
+            # That of a rig without units is ω0.
+            f"natural frequency {forcing(oscillator.natural_frequency, 4).replace('ω', 'ω0')}"
+            if sprung
+            else "",
         ),
         (
             "isolator",
@@ -124,11 +122,6 @@ def _shaken(shaken: Repeated) -> str:
     if shaken.on is None:
         return words
     return f"{words.removesuffix(' on the mass')} on {shaken.on}"
-
-
-def _natural(frequency: float) -> str:
-    """The natural frequency; that of a rig without units is ω0."""
-    return f"natural frequency {forcing(frequency, 4).replace('ω', 'ω0')}"
 
 
 _SHAKEN = {

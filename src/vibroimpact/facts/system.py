@@ -50,17 +50,7 @@ def text(summary: Mapping[str, Any]) -> RenderableType:
         return Group(Text(), Text(f"Static equilibrium: u = {written('displacement', rest)}"))
     turn = math.tau if unitless() else 1.0
     count = len(summary["modes"])
-    rows = [
-        {
-            "mode": i + 1,
-            "of_mode": turn * one["natural_frequency"],
-            "damping": None
-            if math.isnan(one["modal_damping_ratio"])
-            else one["modal_damping_ratio"],
-            "effective_mass": one["effective_mass"],
-        }
-        for i, one in enumerate(summary["modes"])
-    ]
+    rows = [{"mode": i, **one} for i, one in enumerate(summary["modes"], 1)]
     shapes = [
         {
             "mass": name,
@@ -71,8 +61,10 @@ def text(summary: Mapping[str, Any]) -> RenderableType:
     ]
     by_mode = (
         Column("mode", "mode"),
-        Column("ω" if unitless() else "frequency (Hz)", "of_mode"),
-        Column("damping ratio", "damping"),
+        Column(
+            "ω" if unitless() else "frequency (Hz)", lambda one: turn * one["natural_frequency"]
+        ),
+        Column("damping ratio", lambda one: _unless_nan(one["modal_damping_ratio"])),
         Column("effective mass", "effective_mass"),
     )
     parts: list[RenderableType] = [
@@ -96,6 +88,10 @@ def text(summary: Mapping[str, Any]) -> RenderableType:
         parts.append(Text("Static equilibrium: u = 0 of all masses"))
     notes = [Text(f"Note: {note}") for note in summary["notes"]]
     return Group(*parts, *([Text()] if notes else []), *notes)
+
+
+def _unless_nan(value: float) -> float | None:
+    return None if math.isnan(value) else value
 
 
 _MOST = 8

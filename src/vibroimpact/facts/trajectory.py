@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.description import motion_parameters
+from vibroimpact.datasets.description import motion_parameters, status_facts
 from vibroimpact.facts.number_format import written
-from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import sheet
 from vibroimpact.model import Oscillator
 from vibroimpact.model.oscillator import SIDES

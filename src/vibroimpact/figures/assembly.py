@@ -95,15 +95,7 @@ def assembly_drawing(
 
 
 def oscillator_drawing(oscillator: Oscillator, *, title: str | None = None) -> Axes:
-    """Draw one mass, its isolator, and its stops with their gaps to scale.
-
-    Parameters
-    ----------
-    oscillator
-        The oscillator.
-    title
-        Title of the figure.
-    """
+    """Draw one mass, its isolator, and its stops with their gaps to scale."""
     # A drawing shows the gaps and the kinds of stops, and no other values of them.
     spring = Isolator(stiffness=1.0, damping=0.0)
     joined = {"right": ("mass", GROUND), "left": (GROUND, "mass")}

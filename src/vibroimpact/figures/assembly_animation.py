@@ -244,14 +244,10 @@ def _pictures(
                 line.set_linewidth(2.2 * pen if owner in pressed else pen)
         for text, point in zip(texts, points[len(points) - len(texts) :], strict=True):
             text.set_position((float(point[0]), float(point[1])))
-        clock.set_text(f"{_instant(now)}, {speed}")
+        clock.set_text(f"t = {now:.2f}{unit(' s')}, {speed}")
         canvas.draw()  # type: ignore[no-untyped-call]
         pixels: Any = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
         yield np.asarray(pixels)[:, :, :3].copy()
-
-
-def _instant(now: float) -> str:
-    return f"t = {now:.2f}{unit(' s')}"
 
 
 def _slices(made: Drawing) -> list[slice]:

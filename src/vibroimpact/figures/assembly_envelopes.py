@@ -14,8 +14,7 @@ from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import chains, history
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import by_name, looks
 from vibroimpact.figures.notebook import Panels
@@ -98,12 +97,9 @@ def mass_envelopes(
         if place is not None and axes is None and not place.is_first_col():
             ax.tick_params(labelleft=False)
     if len(named) > 1:
-        add_legend(panel_axes[0], [_entry(look) for look in looks(list(named))], columns=2)
+        entries = [Line2D([], [], label=one.label, **_style(one)) for one in looks(list(named))]
+        add_legend(panel_axes[0], entries, columns=2)
     return panel_axes
-
-
-def _entry(look: Look) -> Any:
-    return Line2D([], [], label=look.label, **_style(look))
 
 
 def _style(look: Look) -> dict[str, Any]:

@@ -8,11 +8,10 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from vibroimpact.arguments import check_name
 from vibroimpact.engine.stops.rebound import restitutions
-from vibroimpact.errors import InputError, unknown
 from vibroimpact.figures.assembly_motion import (
     History,
     chosen,
@@ -23,11 +22,10 @@ from vibroimpact.figures.assembly_motion import (
     rows_of_panels,
     touching,
 )
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.record import mark_end
+from vibroimpact.figures.record import impact_entry, mark_end
 from vibroimpact.figures.style import EDGE
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
@@ -90,11 +88,10 @@ def mass_histories(
         If the dataset does not hold such a motion, or if a quantity or a mass does not exist.
     """
     shown = history(motion, cycles)
-    if quantity not in LABELS:
-        raise InputError(f"quantity: {unknown(quantity, LABELS)}")
+    check_name(quantity, LABELS, "quantity")
     names = chosen(masses, shown.assembly.names, "mass", "masses")
     pairs = chosen(closing, tuple(shown.assembly.stops), "stop", "closing") if closing else []
-    every = rows_of_panels(axes, [*names, *pairs], 1.45, title)
+    every = rows_of_panels(axes, [*names, *pairs], title)
     mass_axes, below = Panels(every[: len(names)]), every[len(names) :]
     factor, label = LABELS[quantity]
     factor, label = in_unit(factor), base_label(label, [motion])
@@ -126,7 +123,7 @@ def mass_histories(
         shown.assembly, [s for s in shown.touched() if s in of_shown and shown.contacts(s)]
     )
     if dots:
-        entries.append(_IMPACT)
+        entries.append(impact_entry())
     entries += mark_end(every, motion)
     if entries:
         add_legend(mass_axes[0], entries)
@@ -144,9 +141,6 @@ def _closing(ax: Axes, shown: History, name: str) -> None:
     ax.plot(shown.at, in_unit(1e3) * closing, color="black", linewidth=0.9, zorder=3)
     words = literal(f"{name}: closing (dashed: gap)")
     ax.set_title(words, loc="left", fontsize="small")
-
-
-_IMPACT = Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
 
 
 def share_scale(panel_axes: Panels) -> None:
@@ -197,7 +191,7 @@ def contact_forces(
     shown = history(motion, cycles)
     parts = shown.assembly.stops
     names = chosen(stops, tuple(parts), "stop", "stops")
-    panel_axes = rows_of_panels(axes, names, 1.45, title)
+    panel_axes = rows_of_panels(axes, names, title)
     struck = {
         name: impulses(motion, shown.assembly, name)[shown.hits(name)]
         for name in names

@@ -29,24 +29,21 @@ _PAGE = 7.2
 """Width of a new figure in inches."""
 
 
-def assembly_of(data: Any, what: str) -> Assembly:
-    """Return the assembly of a dataset.
-
-    Parameters
-    ----------
-    data
-        The dataset.
-    what
-        What is expected, such as ``"motion: … the result of simulate"``, for the error.
+def assembly_of(data: Any, what: str, *required: str) -> Assembly:
+    """Return the assembly of a dataset that has the required variables, dims or attributes.
 
     Raises
     ------
     InputError
-        If the dataset is not of an assembly.
+        If there is none. The message begins with `what`: ``"motion: … the result of simulate"``.
     """
     parameters = json.loads(getattr(data, "attrs", {}).get("parameters", "{}"))
     table = parameters.get("rigs", [parameters])[0].get("assembly")
-    if not isinstance(data, xr.Dataset) or table is None:
+    if (
+        not isinstance(data, xr.Dataset)
+        or table is None
+        or not set(required) <= {*data.data_vars, *data.dims, *data.attrs}
+    ):
         raise InputError(f"{what} of a Rig with an Assembly of several masses")
     return Assembly.model_validate(table)
 
@@ -193,23 +190,21 @@ def chosen(choice: Any, names: tuple[str, ...], what: str, field: str) -> list[s
     return selection
 
 
-def rows_of_panels(
-    axes: Any, names: list[str], height: float, title: str | None, apart: float = 0.8
-) -> Panels:
+def rows_of_panels(axes: Any, names: list[str], title: str | None) -> Panels:
     """Return one panel for each name below each other, with the name above its left end."""
-    size = (_PAGE, apart + height * len(names))
+    size = (_PAGE, 0.8 + 1.45 * len(names))
     made = panels(axes, len(names), "one for each name", size, title)
     return name_panels(made, names)
 
 
-def grid_of_panels(axes: Any, names: list[str], height: float, title: str | None) -> Panels:
+def grid_of_panels(axes: Any, names: list[str], title: str | None) -> Panels:
     """Return one panel for each name: two side by side if there are many and if they fit."""
     count = len(names)
     if axes is not None:
-        return name_panels(panels(axes, count, "one for each name", (_PAGE, height), title), names)
+        return name_panels(panels(axes, count, "one for each name", (_PAGE, _PAGE), title), names)
     columns = min(columns_that_fit(2), 2) if count > 2 else 1
     rows = -(-count // columns)
-    made = new_axes(rows, columns, (_PAGE, 0.8 + height * rows), sharex=True)
+    made = new_axes(rows, columns, (_PAGE, 0.8 + 1.75 * rows), sharex=True)
     for unused in made.ravel()[count:]:
         unused.remove()
     panel_axes = Panels(made.ravel()[:count])

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import check_name
+from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import band_of, chosen, history
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.portrait import SECTION
@@ -70,8 +70,7 @@ def pair_portrait(
     if first == second:
         raise InputError(f"second: {second!r} is also the first mass; pass two different masses")
     known = ("displacement", "velocity", "approach")
-    if quantity not in known:
-        raise InputError(f"quantity: {unknown(quantity, known)}")
+    check_name(quantity, known, "quantity")
     ax = axes_or_new(ax, (5.2, 4.4), title)
     moved, fast = (
         {name: shown.motion[what].sel(mass=name).values for name in names}

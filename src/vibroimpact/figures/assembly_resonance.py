@@ -12,7 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import check_name
+from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import (
     assembly_of,
     chosen,
@@ -25,6 +26,7 @@ from vibroimpact.figures.branches import (
     mark_bifurcations,
     mark_sweep,
     orbit_style,
+    parts_of_curve,
     stable_pieces,
 )
 from vibroimpact.figures.finish import finished
@@ -32,11 +34,11 @@ from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, SHADE, sweeps_of
 from vibroimpact.model import Assembly
+from vibroimpact.response.resonance import runs
 
 _Array = NDArray[np.float64]
 
 _BASE = "transmitted force"
-_HEIGHT = 1.75
 _MARKS = 20
 """Approximate number of marks on a curve."""
 _CONTACT = {"both": "", "one": "/////"}
@@ -88,11 +90,9 @@ def mass_resonance(
         exist.
     """
     what = "data: this is not a sweep; pass the result of sweep"
-    assembly = assembly_of(data, what)
-    if "direction" not in data.dims or "frequency" not in data.dims:
-        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    assembly = assembly_of(data, what, "direction", "frequency")
     drawn = _panels(data, quantity, names, assembly)
-    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], title)
     frequency = data["frequency"].values
     kinds: set[str] = set()
     loose = set()
@@ -171,9 +171,7 @@ def mass_branches(
         not exist. Also if a sweep is passed although the parameter is not the frequency.
     """
     what = "data: this is not a branch; pass the result of branch"
-    assembly = assembly_of(data, what)
-    if "parameter" not in data.attrs or "branch" not in data:
-        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    assembly = assembly_of(data, what, "parameter", "branch")
     parameter = data.attrs["parameter"]
     if sweep is not None and (parameter != "frequency" or quantity not in sweep):
         raise InputError(
@@ -181,7 +179,7 @@ def mass_branches(
             "same rig with branches along 'frequency', or leave sweep out"
         )
     drawn = _panels(data, quantity, names, assembly)
-    panel_axes = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    panel_axes = grid_of_panels(axes, [one.name for one in drawn], title)
     scale, unit = axis_unit(data[parameter])
     x = scale * data[parameter].values
     pieces = stable_pieces(data)
@@ -190,10 +188,11 @@ def mass_branches(
     for ax, one in zip(panel_axes, drawn, strict=True):
         y = one.factor * one.values.values
         for piece, stable in pieces:
-            for run, touched in _runs(piece, one.touched):
+            hit = one.touched[piece]
+            for run, touched in parts_of_curve(hit[:-1] & hit[1:]):
                 width = (2.0 if touched else 0.9) * (1.0 if stable else 0.8)
                 styles[stable, touched] = style = orbit_style(stable, width)
-                ax.plot(x[run], y[run], **style)
+                ax.plot(x[piece][run], y[piece][run], **style)
         marks = []  # of each panel the same kinds: one legend serves all
         if sweep is not None:
             swept = one.factor * one.of(sweep[one.quantity])
@@ -231,18 +230,6 @@ def legend_of(panel_axes: Panels, axes: Any, entries: list[Any]) -> None:
         add_legend(panel_axes[0], entries, columns=3)
 
 
-def _runs(piece: slice, hit: NDArray[np.bool_]) -> list[tuple[slice, bool]]:
-    """Return parts of a piece of a branch whose segments all have contacts, or none."""
-    runs: list[tuple[slice, bool]] = []
-    for i in range(piece.start, piece.stop - 1):
-        touched = bool(hit[i] and hit[i + 1])
-        if runs and runs[-1][1] == touched:
-            runs[-1] = (slice(runs[-1][0].start, i + 2), touched)
-        else:
-            runs.append((slice(i, i + 2), touched))
-    return runs
-
-
 class _Panel(NamedTuple):
     """What a panel shows of a mass or a stop."""
 
@@ -272,8 +259,7 @@ def _panels(
         and one.dtype.kind == "f"
         and not str(name).startswith("bifurcation_")
     ]
-    if quantity not in known:
-        raise InputError(f"quantity: {unknown(quantity, known)}")
+    check_name(quantity, known, "quantity")
     values = data[quantity]
     hit = data["peak_force"] > 0.0  # infinite at a rigid stop that is hit
     dim = next((dim for dim in ("mass", "stop") if dim in values.dims), None)
@@ -298,21 +284,10 @@ def _panels(
 def _shade(ax: Axes, frequency: _Array, hit: NDArray[np.bool_]) -> set[str]:
     """Shade the frequencies with contact, and return which kinds of shades were drawn."""
     edges = np.concatenate([frequency[:1], 0.5 * (frequency[1:] + frequency[:-1]), frequency[-1:]])
-    state = np.where(hit.all(axis=0), "both", np.where(hit.any(axis=0), "one", ""))
-    drawn, first = set(), 0
-    for i in range(1, len(state) + 1):
-        if i < len(state) and state[i] == state[first]:
-            continue
-        if state[first]:
-            drawn.add(str(state[first]))
-            ax.axvspan(
-                edges[first],
-                edges[i],
-                facecolor=SHADE,
-                edgecolor=EDGE,
-                lw=0.0,
-                hatch=_CONTACT[str(state[first])],
-                zorder=0,
-            )
-        first = i
-    return drawn
+    both = np.asarray(hit.all(axis=0))
+    spans = {"both": runs(both), "one": runs(hit.any(axis=0) & ~both)}
+    style: dict[str, Any] = {"facecolor": SHADE, "edgecolor": EDGE, "lw": 0.0, "zorder": 0}
+    for kind, hatch in _CONTACT.items():
+        for first, last in spans[kind]:
+            ax.axvspan(edges[first], edges[last + 1], hatch=hatch, **style)
+    return {kind for kind in spans if spans[kind]}

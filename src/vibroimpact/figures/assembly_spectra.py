@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_histories import LABELS, Quantity
 from vibroimpact.figures.assembly_motion import chosen, label_values, rows_of_panels
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.lines import check_lines, label_orders, nearly_continuous
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import Look
@@ -75,7 +74,7 @@ def mass_spectra(
             "fourier_spectrum of a Rig with an Assembly"
         )
     names = chosen(masses, tuple(spectrum["mass"].values.tolist()), "mass", "masses")
-    panel_axes = rows_of_panels(axes, names, 1.45, title)
+    panel_axes = rows_of_panels(axes, names, title)
     factor, label = LABELS[quantity]
     data = spectrum.isel(order=spectrum["order"].values <= highest)
     order = data["order"].values

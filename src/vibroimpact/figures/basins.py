@@ -18,8 +18,7 @@ from scipy.ndimage import distance_transform_edt
 
 from vibroimpact.attraction.adaptive_curve import CONTINUES
 from vibroimpact.errors import InputError
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.model.names import literal

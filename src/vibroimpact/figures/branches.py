@@ -26,6 +26,7 @@ from vibroimpact.figures.style import Look, sweeps_of
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
+from vibroimpact.response.resonance import runs
 from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
 
 _Array = NDArray[np.float64]
@@ -182,14 +183,22 @@ def stable_pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
     first, second = stable[:-1], stable[1:]
     # At a bifurcation itself (-1) the other end of the segment decides.
     solid = np.where(first < 0, second, np.where(second < 0, first, first * second)) == 1
-    within = branch[:-1] == branch[1:]
-    runs: list[tuple[slice, bool]] = []
-    for i in np.flatnonzero(within):
-        if runs and runs[-1][0].stop == i + 1 and runs[-1][1] == solid[i]:
-            runs[-1] = (slice(runs[-1][0].start, int(i) + 2), bool(solid[i]))
-        else:
-            runs.append((slice(int(i), int(i) + 2), bool(solid[i])))
-    return runs
+    return parts_of_curve(solid, branch[:-1] == branch[1:])
+
+
+def parts_of_curve(
+    solid: NDArray[np.bool_], within: NDArray[np.bool_] | bool = True
+) -> list[tuple[slice, bool]]:
+    """Return the parts of a curve whose segments are all solid, or all not, in order.
+
+    The segment [i] is that from point i to point i + 1. One that is not `within` is in no part.
+    """
+    parts = [
+        (slice(first, last + 2), kind)
+        for kind in (True, False)
+        for first, last in runs((solid == kind) & within)
+    ]
+    return sorted(parts, key=lambda part: part[0].start)
 
 
 def orbit_style(stable: bool, width: float, colour: str = "black") -> dict[str, Any]:

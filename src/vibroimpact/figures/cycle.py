@@ -8,8 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import base_at_rest
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.motion_style import (
     axes_or_new,
     force_unit,
@@ -61,16 +60,8 @@ def hysteresis_cycle(
         name, unit = "transmitted_force", force_unit(curves)
         factor, label = 1.0 / unit.size, f"transmitted force ({unit.symbol})"
     for curve in curves:
-        long = curve.at[-1] - curve.at[0] > 20.0
-        ax.plot(
-            in_unit(1e3) * curve.values["displacement"],
-            factor * curve.values[name],
-            color=curve.look.colour,
-            linestyle="-" if long else curve.look.dashes,
-            linewidth=0.25 if long else 1.2,
-            label=curve.look.label,
-            zorder=3,
-        )
+        moved = in_unit(1e3) * curve.values["displacement"]
+        ax.plot(moved, factor * curve.values[name], **curve.loops)
     gap_lines(ax, curves, horizontal=False)
     ax.set_xlabel(base_label("relative displacement $u$ (mm)", named_motions.values()))
     ax.set_ylabel(label)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -65,18 +63,14 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
         rig = f"{literal(str(one['rig'].item()))}, " if several else ""
         for k, words in enumerate(("largest", "second")[: dataset.sizes["exponent"]]):
             y, error = (one[key].values[:, k] for key in ("exponents", "exponents_uncertainty"))
-            style: dict[str, Any] = {"color": look.colour, "linestyle": "-" if k == 0 else ":"}
-            ax.plot(
-                x,
-                y,
-                linewidth=look.width if k == 0 else 0.8,
+            drawn = look._replace(
+                dashes="-" if k == 0 else ":",
+                width=look.width if k == 0 else 0.8,
                 marker=look.marker if several and k == 0 else "",
-                markersize=look.size,
-                markevery=max(1, len(x) // 20),
-                markerfacecolor=look.colour if look.filled else "none",
-                label=f"{rig}{words}",
-                **style,
             )
+            every = max(1, len(x) // 20)
+            style = drawn.marks() | drawn.line
+            ax.plot(x, y, markevery=every, label=f"{rig}{words}", **style)
             known = np.isfinite(error)
             ax.fill_between(
                 x,

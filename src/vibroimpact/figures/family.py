@@ -11,10 +11,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from vibroimpact.errors import InputError, alternatives, unknown
+from vibroimpact.arguments import check_name
+from vibroimpact.errors import InputError, alternatives
 from vibroimpact.figures.assembly_motion import refuse_masses
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new, check_axes
@@ -105,8 +105,7 @@ def resonance_family(
     refuse_masses(data, "mass_resonance, one rig at a time, such as data.isel(rig=0)")
     if quantity is None:
         quantity = "eta_d" if draws_eta(data) else "displacement_excursion"
-    if quantity not in get_args(Quantity):
-        raise InputError(f"quantity: {unknown(quantity, get_args(Quantity))}")
+    check_name(quantity, get_args(Quantity), "quantity")
     names = [str(name) for name in data["rig"].values]
     for field, mapping in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in mapping or {}:

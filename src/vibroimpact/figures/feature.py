@@ -8,8 +8,8 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 
-from vibroimpact.arguments import check_variables
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import check_name, check_variables
+from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
@@ -48,8 +48,7 @@ def feature_map(
     if "scenario" not in data or data["scenario"].ndim != 2:
         raise InputError("data: this is not a map of scenarios; pass the result of scenario_map")
     known = [str(n) for n in data.data_vars if n not in ("scenario", "level")]
-    if name not in known:
-        raise InputError(f"name: {unknown(name, known)}")
+    check_name(name, known, "name")
     ax = axes_or_new(ax, (6.4, 4.6), title)
     second, first = (str(dim) for dim in data["scenario"].dims)
     counted = name.endswith("_count")

@@ -1,4 +1,4 @@
-"""What all figures have at the end: labels that fit, without units if the rigs have none.
+"""Labels of all figures: they fit, have no units if the rigs have none, and know a base at rest.
 
 A figure function draws millimetres, g or kN. If it has the decorator `finished`, and if its
 data were computed from rigs without units, `in_unit` returns 1, the labels of the axes lose their
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import wraps
 from typing import Any, TypeVar, cast
 
@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.written_units import unitless, written_for
@@ -47,6 +48,18 @@ def finished(draw: _Draw) -> _Draw:
             return made
 
     return cast("_Draw", drawn)
+
+
+def base_label(label: str, data: Iterable[xr.Dataset]) -> str:
+    """Return the label of an axis. If a force or nothing shakes all rigs, the base is at rest.
+
+    Then the displacement and the velocity are absolute, and the absolute acceleration is ü.
+    """
+    if not all(base_at_rest(one) for one in data):
+        return label
+    for moving, still in (("relative", "absolute"), (" + A_t", "")):
+        label = label.replace(moving, still)
+    return label
 
 
 def in_unit(factor: float) -> float:

@@ -198,18 +198,7 @@ def add_legend(
 ) -> FittedLegend:
     """Add a legend above or below a panel, or below all panels of a figure.
 
-    Parameters
-    ----------
-    parent
-        The panel, or the figure.
-    handles
-        Lines and areas in the legend. Default: all of the panel that have a label.
-    columns
-        Largest number of columns.
-    place
-        Position of the legend of a panel. The legend of a figure is below all panels.
-    style
-        Further arguments of `Legend`.
+    It has at most so many columns. Default of the entries: all of the panel that have a label.
     """
     if handles is None:
         assert isinstance(parent, Axes)
@@ -230,16 +219,9 @@ def add_legend(
 
 
 def fit_labels(*axes: Axes, share: float = _FULL) -> None:
-    """Break axis labels and titles that are too long for their side of the panel into lines.
+    """Break axis labels and titles that cover more than `share` of their side into lines.
 
     Call it when the panels and their legends are complete.
-
-    Parameters
-    ----------
-    axes
-        The panels.
-    share
-        Share of a side that a label may cover.
     """
     with _as_saved(axes):
         if not any(_length(text, None) > 0.5 * side for ax in axes for text, side in _labels(ax)):
@@ -295,16 +277,9 @@ def _labels(ax: Axes) -> list[tuple[Text, float]]:
 
 
 def break_lines(text: Text, room: float, renderer: Any) -> None:
-    """Break a text into the smallest number of lines, of similar length, that are not too long.
+    """Break a text of one line into the fewest lines, of similar length, that fit the room (px).
 
-    Parameters
-    ----------
-    text
-        The text, in one line.
-    room
-        Largest length of a line, in pixels.
-    renderer
-        Renderer that measures the text. Default: that of the figure.
+    By default, the renderer is that of the figure.
     """
     if _length(text, renderer) <= room:
         return

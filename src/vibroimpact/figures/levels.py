@@ -51,16 +51,7 @@ def number_lines(
 
     A number is written along its line, in a gap of the line, where the line is straight and its
     neighbours are far. It does not cover other numbers, lines or marks. If a line is too short or
-    has no room for a number, no number is written.
-
-    Parameters
-    ----------
-    ax
-        The panel.
-    levels
-        Levels with their lines. Each line is an array of points in the units of the axes.
-    marks
-        Lines and marks that must not be covered.
+    has no room for a number, no number is written. Points of lines are in the units of the axes.
     """
     ax.autoscale_view()  # which matplotlib would put off until it draws
     font = FontProperties(size="small").get_size_in_points()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -11,10 +11,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import motion_parameters
-from vibroimpact.errors import InputError, unknown
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.motion_style import axes_or_new, by_name, looks
 from vibroimpact.model.written_units import unitless
 
@@ -101,7 +101,7 @@ def spectrum_lines(
     return ax
 
 
-def check_lines(quantities: Iterable[str], quantity: str, highest: float) -> None:
+def check_lines(quantities: Collection[str], quantity: str, highest: float) -> None:
     """Check the quantity and the highest order of a figure of a spectrum.
 
     Raises
@@ -109,8 +109,7 @@ def check_lines(quantities: Iterable[str], quantity: str, highest: float) -> Non
     InputError
         If one of them is invalid.
     """
-    if quantity not in quantities:
-        raise InputError(f"quantity: {unknown(quantity, quantities)}")
+    check_name(quantity, quantities, "quantity")
     if not 0.0 < highest < math.inf:
         raise InputError(f"highest: {highest!r}; use a finite order greater than 0")
 

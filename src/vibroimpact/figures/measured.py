@@ -74,15 +74,6 @@ def _largest(data: xr.Dataset, kind: str) -> xr.DataArray | None:
 def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
     """Draw measured curves: a point a hold, hysteresis shaded, the step of a jump dotted.
 
-    Parameters
-    ----------
-    data
-        Curves of `vibroimpact.read_measurement`.
-    axes
-        As many Axes as there are quantities. None makes a new figure.
-    title
-        Title of the figure, if a new one is made.
-
     Raises
     ------
     InputError

@@ -53,6 +53,18 @@ class DrawnMotion(NamedTuple):
     gaps: dict[str, float]
     """Gap (m) on each side with a bumper."""
 
+    @property
+    def is_long(self) -> bool:
+        """Whether there are so many cycles that their curves in a plane must be thin."""
+        return bool(self.at[-1] - self.at[0] > 20.0)
+
+    @property
+    def loops(self) -> dict[str, Any]:
+        """Keywords of `Axes.plot` for a curve in a plane."""
+        how = self.look._replace(width=1.2)
+        how = how._replace(dashes="-", width=0.25) if self.is_long else how
+        return {**how.line, "label": how.label, "zorder": 3}
+
 
 def by_name(data: Any, alone: str = "") -> dict[str, Any]:
     """Return datasets by name: those of a mapping, or one dataset alone."""

@@ -147,7 +147,10 @@ def _name_points(
     lines = []
     for number, k in enumerate(chosen, start=1):
         at = np.unravel_index(order[k], data["pareto"].shape)
-        values = [_told(data[dim][i]) for dim, i in zip(dims, at, strict=True)]
+        values = [
+            pretty(float(f"{float(data[dim][i]):.3g}"), quantity_of(data[dim]))
+            for dim, i in zip(dims, at, strict=True)
+        ]
         lines.append(f"{number}  {', '.join(values)}")
         ax.annotate(
             str(number),
@@ -174,7 +177,3 @@ def _name_points(
         fontsize="small",
         linespacing=1.4,
     )
-
-
-def _told(value: xr.DataArray) -> str:
-    return pretty(float(f"{float(value):.3g}"), quantity_of(value))

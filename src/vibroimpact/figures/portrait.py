@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 
 _MOST_VECTORS = 200_000
@@ -52,18 +51,8 @@ def phase_portrait(
     curves = shown(named_motions)
     for curve, motion in zip(curves, named_motions.values(), strict=True):
         u, v = in_unit(1e3) * curve.values["displacement"], curve.values["velocity"]
-        long = curve.at[-1] - curve.at[0] > 20.0
-        ax.plot(
-            u,
-            v,
-            color=curve.look.colour,
-            linestyle="-" if long else curve.look.dashes,
-            linewidth=0.25 if long else 1.2,
-            alpha=0.5 if long else 1.0,
-            label=curve.look.label,
-            zorder=3,
-            rasterized=len(u) > _MOST_VECTORS,
-        )
+        alpha, many = 0.5 if curve.is_long else 1.0, len(u) > _MOST_VECTORS
+        ax.plot(u, v, alpha=alpha, rasterized=many, **curve.loops)
         if "cycle" not in motion:  # through a record
             continue
         at = motion["cycle"].values
@@ -72,11 +61,11 @@ def phase_portrait(
         ax.scatter(
             in_unit(1e3) * motion["displacement"].values[whole],
             motion["velocity"].values[whole],
-            s=7 if long else 26,
-            marker="o" if long else "D",
+            s=7 if curve.is_long else 26,
+            marker="o" if curve.is_long else "D",
             facecolor=curve.look.colour if curve.look.filled else "white",
             edgecolor="black",
-            linewidth=0.3 if long else 0.8,
+            linewidth=0.3 if curve.is_long else 0.8,
             # One entry of the legend for all motions.
             label=None if ax.collections else SECTION,
             zorder=5,

@@ -14,7 +14,7 @@ from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import contact_spans
 from vibroimpact.figures.finish import finished, in_unit
-from vibroimpact.figures.history import gap_entry
+from vibroimpact.figures.history import PANELS, gap_entry
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import BANDS, EDGE, also_in_g, panels
@@ -22,9 +22,7 @@ from vibroimpact.model.oscillator import SIDES
 
 _ROWS = (
     ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),
-    ("displacement", 1e3, "relative\ndisplacement $u$ (mm)"),
-    ("acceleration", 1.0, "absolute acceleration\n$\\ddot u + A_t$ (m/s²)"),
-    ("velocity", 1.0, "relative\nvelocity $\\dot u$ (m/s)"),
+    *PANELS,
 )
 _SIDES = {"right": 1, "left": -1}
 
@@ -83,9 +81,7 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     panel_axes[3].set_xlabel("time (s)")
     handles = stops_legend(stops, motion)
     if hit.any():
-        handles.append(
-            Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
-        )
+        handles.append(impact_entry())
     handles += mark_end(panel_axes, motion)
     if handles:
         add_legend(panel_axes[1], handles)
@@ -123,6 +119,11 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
     touched = [side for side in stops if _spans(motion, side)]
     handles += [BANDS[SIDES.index(side)].entry(f"{side} contact") for side in touched]
     return handles
+
+
+def impact_entry() -> Line2D:
+    """Return the legend entry of the dots of impacts on rigid stops."""
+    return Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
 
 
 _END: dict[str, Any] = {"color": "0.35", "linestyle": ":", "linewidth": 1.0}

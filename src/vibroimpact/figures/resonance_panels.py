@@ -19,8 +19,7 @@ from vibroimpact.datasets.description import (
 from vibroimpact.datasets.stops import over_stops
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
-from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.finish import in_unit
+from vibroimpact.figures.finish import base_label, in_unit
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE, Scale
 from vibroimpact.model.rig import Rig

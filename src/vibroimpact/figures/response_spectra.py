@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import check_name
+from vibroimpact.errors import InputError
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new, by_name
@@ -61,8 +62,7 @@ def response_spectra(
         If ``spectrum`` is not a response spectrum with several periods, or if the quantity is
         unknown. Also if there are more curves than can be distinguished.
     """
-    if quantity not in _LABELS:
-        raise InputError(f"quantity: {unknown(quantity, _LABELS)}")
+    check_name(quantity, _LABELS, "quantity")
     datasets = _named(spectrum)
     factor, label = _LABELS[quantity]
     every = [(name, curve) for name, one in datasets.items() for curve in _curves(one[quantity])]

@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, NullLocator
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import own_outputs
-from vibroimpact.errors import InputError, shown, unknown
+from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.assembly_motion import chosen
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import MARKS, axis_unit, orbit_style, stable_pieces
@@ -98,8 +99,7 @@ def section_diagram(
         raise InputError(f"data: this is {another} pass the result of bifurcation_diagram")
     if quantity is None:
         quantity = "contact_start_velocity" if "contact_stop" in data else held[0]
-    if quantity not in held:
-        raise InputError(f"quantity: {unknown(quantity, held)}")
+    check_name(quantity, held, "quantity")
     name = data.attrs["parameter"]
     if branches is not None and branches.attrs.get("parameter") != name:
         raise InputError(

@@ -50,12 +50,7 @@ class Look(NamedTuple):
     def marks(self, share: float = 1.0, *, empty: str = "none") -> dict[str, Any]:
         """Return the keywords of `Axes.plot` for marks without a line.
 
-        Parameters
-        ----------
-        share
-            Factor of the size of the marks.
-        empty
-            Colour inside open marks.
+        Their size is multiplied by `share`, and open marks have the colour `empty` inside.
         """
         return {
             "color": self.colour,
@@ -71,15 +66,7 @@ class Look(NamedTuple):
         return {"color": self.colour, "linestyle": "", "marker": marker, "markersize": size}
 
     def curve(self, points: int, marks: int = 45) -> dict[str, Any]:
-        """Return the keywords of `Axes.plot` for a curve. On a dense curve, some points have marks.
-
-        Parameters
-        ----------
-        points
-            Number of points of the curve.
-        marks
-            Approximate number of marks.
-        """
+        """Return the keywords of `Axes.plot` for a curve of `points` with about so many marks."""
         every = max(1, points // marks)
         # Open markers half-way between the filled ones, where both cannot be at every point.
         first = 0 if self.filled else every // 2

@@ -27,12 +27,6 @@ def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableTyp
     lines = [*findings, *compared, *advice]
     parts: list[Any] = [Text(f"amplitude of {name}: {size}") for name, size in amplitudes.items()]
     parts += [Text(), _table(own_fit), Text(), *(Text(f"- {line}") for line in lines)]
-    if fits.best_name != OWN_MODEL:
-        name, fit = fits.best_name, fits.best
-        parts += [Text(), Text(f"The model that fits best, {name}:"), _table(fit), Text()]
-        parts += [Text(f"- {line}") for line in fit.attrs["findings"].splitlines()]
-    if notes:
-        parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
     facts = {
         "parameters": _values(own_fit),
         "amplitudes": amplitudes,
@@ -43,11 +37,12 @@ def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableTyp
     }
     if fits.best_name != OWN_MODEL:
         name, fit = fits.best_name, fits.best
-        facts["best_model"] = {
-            "model": name,
-            "parameters": _values(fit),
-            "findings": fit.attrs["findings"].splitlines(),
-        }
+        of_best = fit.attrs["findings"].splitlines()
+        parts += [Text(), Text(f"The model that fits best, {name}:"), _table(fit), Text()]
+        parts += [Text(f"- {line}") for line in of_best]
+        facts["best_model"] = {"model": name, "parameters": _values(fit), "findings": of_best}
+    if notes:
+        parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
     return Group(*parts), facts
 
 

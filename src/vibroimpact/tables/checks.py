@@ -32,21 +32,13 @@ class Sampling(NamedTuple):
 
 
 def check_count(file: File, stated: Statements, counts: Iterable[int]) -> None:
-    """Check the stated number of samples.
-
-    Parameters
-    ----------
-    file
-        The file, for messages.
-    stated
-        Statements of the file.
-    counts
-        Numbers of values that follow, as they may be counted. The first one is shown.
+    """Check the stated number of samples against `counts`: the values, as they may be counted.
 
     Raises
     ------
     InputError
-        If the file states numbers of samples, and none of them is one of these.
+        If the file states numbers of samples, and none of them is one of these. The message has the
+        first one.
     """
     numbers = list(counts)
     if stated.counts and not {int(one.value) for one in stated.counts} & set(numbers):
@@ -63,14 +55,7 @@ def wrong_count(file: File, stated: Number, count: int) -> InputError:
 
 
 def sampling(table: Table, unit: str | None = None) -> Sampling:
-    """Return the step of a table, from its times and from what the file states.
-
-    Parameters
-    ----------
-    table
-        The table.
-    unit
-        Unit of its times.
+    """Return the step of a table, from its times (in `unit`) and from what the file states.
 
     Raises
     ------

@@ -54,19 +54,11 @@ class Headings(NamedTuple):
 
 
 def column_headings(above: Sequence[Heading], width: int, delimiter: str | None) -> Headings | None:
-    """Return the names of columns and their units, or None if no line names them.
+    """Return the names of columns and their units, or None if no line names so many.
 
     The last line above the table that has as many names as the table has columns is used; lines of
-    comments only if no other line is. A line below the names may contain their units.
-
-    Parameters
-    ----------
-    above
-        Lines above the table.
-    width
-        Number of columns.
-    delimiter
-        Separator of the columns. None for blanks.
+    comments only if no other line is. A line below the names may contain their units. Without a
+    delimiter, blanks separate the names.
     """
     under: tuple[list[str], int] | None = None
     for line in [

@@ -185,13 +185,7 @@ def same(one: float, other: float) -> bool:
 
 
 def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
-    """Read the statements in lines.
-
-    Parameters
-    ----------
-    lines
-        Numbers of the lines, starting from 0, and their texts without marks of comments.
-    """
+    """Read the statements in lines, each with its number and without marks of comments."""
     counts: list[Number] = []
     steps: list[Number] = []
     bare_steps: list[Number] = []

@@ -70,14 +70,7 @@ _OTHER_AXES = re.compile(r"f(?:req(?:uency)?)?|hz|period", re.IGNORECASE)
 def time_column(columns: list[Column], step: Number | None, is_first: bool) -> int | None:
     """Return the number of the column of times: one that the header names, or that rises evenly.
 
-    Parameters
-    ----------
-    columns
-        All columns.
-    step
-        The step that the file states.
-    is_first
-        Whether the arrangement has its times in the first column.
+    If `is_first`, the arrangement of the table has its times in the first column.
     """
     if len(columns) < 2:
         return None

@@ -22,15 +22,9 @@ _MARKS = ("tcp://", "tls://", "ucx://", "ws://", "wss://", "inproc://")
 
 
 def workers_for(threads: int | None, where: Any = THREADS) -> Workers:
-    """Return where tasks run.
+    """Return where tasks run: threads or processes (default: one per processor), or a cluster.
 
-    Parameters
-    ----------
-    threads
-        Number of threads or processes (default: one per processor).
-    where
-        ``"threads"``, ``"processes"``, a `distributed.Client`, or a scheduler's address such as
-        ``"tcp://10.0.0.1:8786"``.
+    A cluster is a `distributed.Client`, or a scheduler's address such as ``"tcp://10.0.0.1:8786"``.
 
     Raises
     ------

@@ -180,12 +180,8 @@ def watched(
 ) -> _Found:
     """Run one long task so that Ctrl-C ends it: on a separate thread, unless this is one.
 
-    Parameters
-    ----------
-    task
-        Function that is called with a tally; it ends soon after [1] becomes nonzero.
-    steps, progress, counted_by
-        As in `each`.
+    The task ends soon after [1] of its tally becomes nonzero. `steps`, `progress` and
+    `counted_by` are those of `each`.
     """
     tally: Tally | None = getattr(_current, "tally", None)
     if tally is None:

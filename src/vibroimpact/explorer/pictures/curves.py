@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
+from vibroimpact.explorer.pictures.numbers import axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import sweeps as facts_of
 from vibroimpact.facts.tables import as_text
@@ -42,7 +42,7 @@ def curves(state: PageState, data: xr.Dataset, fine: bool) -> dict[str, Any]:
     """Return the curves of a sweep as two or three panels."""
     features = resonance.features(data)
     panels = physical_curves(data) if state.physical else normalised(data)
-    words = as_text(facts_of.text(data, features, advice(data)), WIDTH) if fine else None
+    words = as_text(facts_of.text(data, features, advice(data))) if fine else None
     return {
         "picture": "curves",
         "fine": fine,

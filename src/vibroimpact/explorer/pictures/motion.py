@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.stops import of_stop
-from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
+from vibroimpact.explorer.pictures.numbers import axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import motions as facts_of
 from vibroimpact.facts.tables import as_text
@@ -72,7 +72,7 @@ def careful(state: PageState, data: xr.Dataset) -> dict[str, Any]:
         **_drawn(state, drawn, shaken),
         "fine": True,
         "words": facts_of.words(motion),
-        "table": as_text(facts_of.text(motions), WIDTH),
+        "table": as_text(facts_of.text(motions)),
         "spectrum": _spectrum(motion),
         "hits": [
             {"time": one(start), "stop": str(stop), "speed": one(in_unit(1e3) * speed)}

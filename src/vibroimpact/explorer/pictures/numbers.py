@@ -10,9 +10,6 @@ from vibroimpact.figures.finish import without_unit
 from vibroimpact.model.frequency_text import forcing_heading
 from vibroimpact.model.written_units import unitless
 
-WIDTH = 100
-"""Number of columns of a text on the page."""
-
 
 def short(values: Iterable[Any], digits: int = 5) -> list[float | None]:
     """Return numbers rounded to `digits` significant digits. Infinity and NaN become None."""
