@@ -202,6 +202,17 @@ def test_a_contact_that_lasts_from_the_start_or_to_the_end_is_drawn() -> None:
     assert len(spans(north)) == (kinds == 1).sum() + 1
 
 
+def test_a_contact_without_an_event_is_drawn() -> None:
+    squeezed = PAIR.replace(
+        stops={"pounding": vi.Link("north", "south", POUNDING.replace(gap=-0.005))}
+    )
+    data = vi.simulate(vi.Rig(squeezed, vi.Harmonic("1e-6 g", "1.5 Hz")), 2)
+    assert data.sizes["event"] == 0
+    assert (data["deformation"] > 0.0).all()
+    (north, _) = figures.mass_histories(data)
+    assert spans(north) == [pytest.approx((0.0, 2.0))]
+
+
 def test_forces_and_impulses_of_the_stops() -> None:
     data = quake()
     axes = dict(zip(BUILDINGS.stops, figures.contact_forces(data), strict=True))

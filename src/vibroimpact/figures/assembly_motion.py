@@ -20,10 +20,11 @@ from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND, check_known
 from vibroimpact.model.names import literal
 from vibroimpact.model.written_units import unitless
+from vibroimpact.response.motion_phases import contact_intervals
 
 _Array = NDArray[np.float64]
 
-BEGINS, HIT = 1, 2
+HIT = 2
 """Kinds of events: a contact begins, and an impact on a rigid stop."""
 _PAGE = 7.2
 """Width of a new figure in inches."""
@@ -99,16 +100,9 @@ def contact_spans(
     span
         When the motion begins and ends.
     """
-    mine = motion["event_stop"].values == stop
-    kind, at = motion["event_contact"].values[mine], at[mine]
-    begins, ends = at[kind == BEGINS], at[kind == 0]
-    if len(ends) and (not len(begins) or ends[0] < begins[0]):
-        begins = np.concatenate([[-math.inf], begins])
-    if len(begins) > len(ends):
-        ends = np.concatenate([ends, [math.inf]])
     first, last = span
-    pairs = zip(np.maximum(begins, first), np.minimum(ends, last), strict=True)
-    return [(float(a), float(b)) for a, b in pairs if a <= b]
+    intervals = contact_intervals(motion, stop, at, last).tolist()
+    return [(max(begin, first), end) for begin, end in intervals if end >= first]
 
 
 def history(motion: Any, cycles: float | None = None) -> History:

@@ -421,7 +421,7 @@ def contact_intervals(motion: xr.Dataset, stop: str, at: _Array, end: float) -> 
     if mine.any():
         touched = kinds[mine][0] == DETACHMENT
     else:
-        touched = bool(motion["touching"].sel(stop=stop).values[0])
+        touched = bool(motion["initial_state"].sel(component=f"touching.{stop}"))
     begins = np.append(np.zeros(int(touched)), begins)
     ends = np.append(ends, np.full(len(begins) - len(ends), end))
     return np.column_stack([begins, ends])
