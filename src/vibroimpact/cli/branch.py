@@ -158,15 +158,15 @@ def branch(
                 grid = np.linspace(*span, _HOLDS)
                 swept = vi.sweep(what.rig, grid, outputs=outputs)
             draw: Any = figures.mass_branches
-            shown, title = quantity or "peak_displacement", what.title
+            shown = quantity or "peak_displacement"
         else:
-            draw, shown, title = figures.branch_diagram, quantity or "eta_d", written.title
+            draw, shown = figures.branch_diagram, quantity or "eta_d"
             # A quantity that is named is drawn in its own units.
             if draws_physical(data, physical if quantity is None else bool(physical)):
                 shown = _PHYSICAL.get(shown, shown)
         ending = f"{varied.ending}-branches"
         written.write(data, ending, draw, quantity=shown, sweep=swept)
         for name in outputs or ():
-            drawn = draw(data, quantity=name, sweep=swept, title=title)
+            drawn = draw(data, quantity=name, sweep=swept, title=written.title)
             written.draw(f"figure of {name}", f"{ending}-{name}", drawn)
     return written.tell(facts.facts(data), facts.text(data))
