@@ -16,7 +16,7 @@ import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify
-from vibroimpact.scenarios.evidence import shown
+from vibroimpact.scenarios.evidence import evidence_of
 from vibroimpact.scenarios.resonance_curves import each_curves
 from vibroimpact.scenarios.thresholds import Thresholds
 
@@ -34,7 +34,9 @@ def named(step: int, **thresholds: float) -> dict[str, str]:
     data = vi.sweeps(cases, np.arange(50, 501, step) / 100)
     used = Thresholds(**thresholds)
     return {
-        case.code: scenario(shown(one_sine(case.rig), curves, 0.5 * used.prominence), used).label
+        case.code: scenario(
+            evidence_of(one_sine(case.rig), curves, 0.5 * used.prominence), used
+        ).label
         for case, curves in zip(cases, each_curves(data), strict=True)
     }
 

@@ -191,12 +191,12 @@ class CurveTest:
             here = self.points.way == w
             at = self.points.hold[here]
             settled[here] = sweep.settled[at]
-            shown = self._shown(sweep.rows, largest, sensors)
+            shown = self._as_measured(sweep.rows, largest, sensors)
             values[here] = shown[at, self.points.variable[here]]
             for place, row in self._others(rig, sweep):
                 here = (self.points.way == w) & (self.points.hold == place)
                 of = self.points.variable[here]
-                other = self._shown(row[np.newaxis], largest, sensors)[0, of]
+                other = self._as_measured(row[np.newaxis], largest, sensors)[0, of]
                 if np.sum(self._off(other, here) ** 2) < np.sum(self._off(values[here], here) ** 2):
                     values[here] = other
         return values, settled
@@ -216,7 +216,9 @@ class CurveTest:
             others += [(place, _mirrored(row)) for place, row in every]
         return others
 
-    def _shown(self, rows: Array, largest: tuple[float, float], sensors: dict[str, float]) -> Array:
+    def _as_measured(
+        self, rows: Array, largest: tuple[float, float], sensors: dict[str, float]
+    ) -> Array:
         """What is measured of holds, a column a quantity."""
         held = HoldRows(rows)
         swing, push = held.displacement_excursion, held.acceleration_excursion
@@ -240,7 +242,7 @@ class CurveTest:
         floor, measured = self.floor[here], self.points.value[here]
         return np.asarray(np.arcsinh(values / floor) - np.arcsinh(measured / floor))
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
+    def test_points(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
         values, _ = self.model(rig, sensors, self.followed(rig))
         return TestPoints(

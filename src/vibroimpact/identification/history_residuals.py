@@ -372,7 +372,7 @@ class HistoryTest:
             u = self.size["acceleration"] / omega**2
         return np.array([u, omega * u])
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
+    def test_points(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
         model = self.model(rig, sensors, unknowns)
         values = {} if model is None else model[0]

@@ -85,7 +85,7 @@ class Test(Protocol):
     ) -> tuple[Array, Flags]:
         """Its residuals, and which of them have a derivative."""
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
+    def test_points(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
 
 

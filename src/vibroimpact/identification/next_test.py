@@ -155,7 +155,7 @@ def next_test(
             "parameter": keys,
         },
     )
-    data.attrs["findings"] = "\n".join(_told(data, result, shaken))
+    data.attrs["findings"] = "\n".join(_described(data, result, shaken))
     return describe(
         data,
         "vibroimpact.next_test",
@@ -245,7 +245,7 @@ def _first_least(values: Array) -> tuple[int, ...]:
     return tuple(int(i) for i in near[0])
 
 
-def _told(data: xr.Dataset, result: xr.Dataset, shaken: Repeated) -> list[str]:
+def _described(data: xr.Dataset, result: xr.Dataset, shaken: Repeated) -> list[str]:
     """Describe the best hold for each of the most uncertain parameters, and for all."""
     lines = []
     relative = result["standard_error"].values / np.maximum(

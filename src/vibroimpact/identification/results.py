@@ -163,22 +163,22 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     used = sum(t.points_count for t in problem.tests)
     for number, test in enumerate(problem.tests):
         rig, sensors = problem.rig_of(x, test)
-        shown = test.shown(rig, sensors, problem.of_test(x, number))
-        rows["point_test"] += [test.name] * len(shown.place)
-        rows["point_direction"] += shown.direction
-        rows["point_variable"] += shown.variable
-        rows["point_place"] += shown.place.tolist()
-        rows["measured_value"] += shown.measured.tolist()
-        rows["modelled_value"] += shown.modelled.tolist()
-        rows["fit_residual"] += shown.residual.tolist()
+        points = test.test_points(rig, sensors, problem.of_test(x, number))
+        rows["point_test"] += [test.name] * len(points.place)
+        rows["point_direction"] += points.direction
+        rows["point_variable"] += points.variable
+        rows["point_place"] += points.place.tolist()
+        rows["measured_value"] += points.measured.tolist()
+        rows["modelled_value"] += points.modelled.tolist()
+        rows["fit_residual"] += points.residual.tolist()
         known = test.noise if test.noise > 0.0 else None
         share = max(1.0 - len(x) / used, 0.1)
-        size = float(np.sqrt(np.mean(shown.residual**2)))
+        size = float(np.sqrt(np.mean(points.residual**2)))
         size = size if size > _SILENT else 0.0
-        count = len(shown.place)
+        count = len(points.place)
         noise_freedom = max(TOLD[test.kind] * count, 1.0)
         judged.append(
-            structure(_rows(shown, test.weights), size, known, share * count, noise_freedom)
+            structure(_rows(points, test.weights), size, known, share * count, noise_freedom)
         )
     for name, values in rows.items():
         data[name] = ("point", np.array(values))
@@ -191,13 +191,13 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     return judged
 
 
-def _rows(shown: TestPoints, weights: dict[str, float]) -> list[Row]:
+def _rows(points: TestPoints, weights: dict[str, float]) -> list[Row]:
     """Residuals of each direction and quantity in the order of their places."""
     rows = []
-    keys = list(zip(shown.direction, shown.variable, strict=True))
+    keys = list(zip(points.direction, points.variable, strict=True))
     for key in dict.fromkeys(keys):
         here = np.flatnonzero([k == key for k in keys])
-        here = here[np.argsort(shown.place[here], kind="stable")]
-        residual = shown.residual[here] / weights[key[1]]
-        rows.append(Row(key[1], shown.place[here], residual, shown.modelled[here]))
+        here = here[np.argsort(points.place[here], kind="stable")]
+        residual = points.residual[here] / weights[key[1]]
+        rows.append(Row(key[1], points.place[here], residual, points.modelled[here]))
     return rows

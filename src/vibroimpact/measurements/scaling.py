@@ -52,7 +52,7 @@ def completed(table: Columns) -> Columns:
             if steps and not any(_is_time(column) for column in columns):
                 said |= {key: with_unit(said[key], text) for key in steps if not is_rate(key)}
                 continue
-        columns = _given(columns, kind, name, about, text)
+        columns = _assigned(columns, kind, name, about, text)
     columns = _listed(columns)
     scaled = [
         new
@@ -93,7 +93,7 @@ def _listed(columns: list[Column]) -> list[Column]:
     return with_doubts
 
 
-def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
+def _assigned(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
     """Assign a stated unit, scale or offset to the columns that it refers to."""
     free = [c for c in columns if is_channel(c) and ("unit" not in kind or c.unit is None)]
     meant = _named(columns, about)

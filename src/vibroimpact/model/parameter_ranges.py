@@ -73,7 +73,7 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
     """
     least, most = (1, None) if count is None else (count, count)
     examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
-    ranges = _given(vary, "ranges", examples, least, most)
+    ranges = _mapping(vary, "ranges", examples, least, most)
     return [
         read_range(varied, span, field_of(name))
         for (name, span), varied in zip(ranges.items(), _parameters(ranges, rig), strict=True)
@@ -141,7 +141,7 @@ def entries(vary: object, least: int = 0, most: int | None = None) -> dict[str, 
 
     They must be a mapping from names, with `least` to `most` entries.
     """
-    return _given({} if vary is None and not least else vary, "values", _VALUES, least, most)
+    return _mapping({} if vary is None and not least else vary, "values", _VALUES, least, most)
 
 
 def field_of(name: str) -> str:
@@ -149,7 +149,7 @@ def field_of(name: str) -> str:
     return f"vary[{name!r}]"
 
 
-def _given(
+def _mapping(
     vary: object, kind: str, examples: Mapping[str, Any], least: int, most: int | None
 ) -> dict[str, Any]:
     count = _COUNTS[least if most is None else most]

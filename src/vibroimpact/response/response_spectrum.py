@@ -84,7 +84,7 @@ def response_spectrum(
     omega = math.tau / np.tile(period.ravel()[moving], ratio.size)
     zeta = np.repeat(ratio.ravel(), int(moving.sum()))
     values = np.zeros((len(_turned(components)), 3, ratio.size, period.size))
-    maxima = _found(components, omega, zeta, progress)
+    maxima = _maxima(components, omega, zeta, progress)
     values[..., moving] = maxima.reshape(*maxima.shape[:2], ratio.size, -1)
     peaks = np.array([one.peak for one in _turned(components)])
     values[:, spectra.ACCELERATION][..., ~moving] = peaks[:, np.newaxis, np.newaxis]
@@ -106,7 +106,7 @@ def _turned(components: Sequence[Record]) -> list[Record]:
     return [Record(math.cos(at) * first + math.sin(at) * second, step) for at in angles]
 
 
-def _found(
+def _maxima(
     components: Sequence[Record], omega: _Array, zeta: _Array, progress: Progress | None
 ) -> _Array:
     """Compute the largest |u|, |u̇|/ω and |ü + A_t|/ω² (m): direction, quantity, oscillator."""

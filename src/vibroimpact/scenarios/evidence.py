@@ -177,10 +177,10 @@ def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
         If the dataset is not that of the sweep of one rig in both directions.
     """
     (curves,) = each_curves(as_rigs(data))
-    return shown(rig, curves, prominence)
+    return evidence_of(rig, curves, prominence)
 
 
-def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
+def evidence_of(rig: Rig, curves: Curves, prominence: float) -> Evidence:
     """What the curves of one rig show."""
     both, uneven, free, most, least = curves
     uneven = uneven & rig.oscillator.symmetric

@@ -14,7 +14,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Direction
 from vibroimpact.response.peaks import Curve
 from vibroimpact.scenarios.classification import confidence, scenario
-from vibroimpact.scenarios.evidence import Evidence, shown
+from vibroimpact.scenarios.evidence import Evidence, evidence_of
 from vibroimpact.scenarios.orbit_evidence import with_folds, with_kinds
 from vibroimpact.scenarios.resonance_curves import swept_alone
 from vibroimpact.scenarios.sweep_frequencies import cycles, held, highest
@@ -113,7 +113,7 @@ def _seen(
     swept = held(rig.oscillator, high, step)
     curves, ended = swept_alone(rig, swept, waited, WINDOW, tally, transient)
     check()
-    evidence = shown(rig, curves, 0.5 * thresholds.prominence)
+    evidence = evidence_of(rig, curves, 0.5 * thresholds.prominence)
     evidence = with_kinds(evidence, rig, ended, KIND_CYCLES, check, brief=True)
     if _rests_on_a_jump(evidence, thresholds):
         check()
