@@ -463,7 +463,7 @@ class Assembly(System):
     def matrix_of_links(self, what: str, links: Iterable[Link]) -> NDArray[np.float64]:
         """Return the sum of the stiffness (or the damping) of links and of the matrices.
 
-        `what` is "stiffness" or "damping".
+        ``what`` is "stiffness" or "damping".
         """
         count = len(self.names)
         matrix = (
