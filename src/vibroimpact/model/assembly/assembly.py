@@ -463,7 +463,12 @@ class Assembly(System):
     def matrix_of_links(self, what: str, links: Iterable[Link]) -> NDArray[np.float64]:
         """Return the sum of the stiffness (or the damping) of links and of the matrices.
 
-        ``what`` is "stiffness" or "damping".
+        Parameters
+        ----------
+        what
+            ``"stiffness"`` or ``"damping"``.
+        links
+            The links that contribute.
         """
         count = len(self.names)
         matrix = (

@@ -41,7 +41,13 @@ class Damping(Named):
     """Damping that the modes determine; derive from it, and provide `matrix`."""
 
     def check_modes(self, count: int) -> None:
-        """Raise an error unless it can damp so many modes; by default it damps any number."""
+        """Raise an error unless it can damp so many modes; by default it damps any number.
+
+        Raises
+        ------
+        InputError
+            If it cannot.
+        """
 
     def matrix(self, mass: Matrix, stiffness: Matrix, modes: Modes) -> Matrix:
         """Return C (N s/m) for the mass matrix, the stiffness matrix and the modes."""
