@@ -64,7 +64,7 @@ def test_derivative_agrees_with_central_differences(motion: Motion, component: i
     signed = in_paper_signs(data)
     first = np.array([float(signed[name][0]) for name in COMPONENTS])
     # The start lies in flight, and so do its neighbours.
-    clear = data["clearance"][0].values.tolist()
+    clear = data["clearance"].isel(time=0).values.tolist()
     assume(not any(gap <= 1e-3 * float(np.abs(data["displacement"]).max()) for gap in clear))
     size = float(np.abs(data["displacement"]).max())
     unit = np.array([size, size * shaken.angular_frequency])[component]
