@@ -81,16 +81,16 @@ def coarse_pictures() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def blank_pictures() -> Iterator[None]:
     """In the daily run, PNG files are blank: for tests of what is written, not of what is seen."""
-    from vibroimpact.figures.notebook import Drawing
+    from vibroimpact.figures.notebook import NotebookFigure
 
-    save = Drawing.savefig
+    save = NotebookFigure.savefig
 
-    def blank(figure: Drawing, file: Any, **how: Any) -> None:
+    def blank(figure: NotebookFigure, file: Any, **how: Any) -> None:
         if samples.full or how.get("format") != "png":
             save(figure, file, **how)
 
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(Drawing, "savefig", blank)
+        patched.setattr(NotebookFigure, "savefig", blank)
         yield
 
 

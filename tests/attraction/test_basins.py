@@ -10,7 +10,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.label_states import NO_TRAPS, SectionSetup, follow
 from vibroimpact.datasets.vocabulary import VARIABLES
 
 CODE, HERTZ = "B3-10mm-A3", 0.7
@@ -62,7 +62,7 @@ def test_shares_lie_within_those_of_states_at_random():
     points[:, 0] = generator.uniform(*WINDOW[0], drawn)
     points[:, 1] = generator.uniform(*WINDOW[1], drawn)
     case = vi.laboratory.case(CODE)
-    stage = Stage(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, HERTZ)))
+    stage = SectionSetup(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, HERTZ)))
     ends = follow(stage, points, None, NO_TRAPS, 150).states
     places = np.column_stack([data["section_displacement"], data["section_velocity"]])
     away = np.abs(ends[:, None, 2:4] - places).max(axis=2)

@@ -17,17 +17,17 @@ from vibroimpact.attraction.adaptive_curve import (
     LONGEST,
     LOST,
     Allowance,
-    Measure,
+    CurveMetric,
     refined,
 )
 from vibroimpact.attraction.crossings import crossings
-from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow, images
+from vibroimpact.attraction.label_states import NO_TRAPS, SectionSetup, follow, images
 from vibroimpact.attraction.saddles import _places
 from vibroimpact.datasets.vocabulary import VARIABLES
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7)
-STAGE = Stage(vi.Rig(CASE.oscillator, EXCITATION))
+STAGE = SectionSetup(vi.Rig(CASE.oscillator, EXCITATION))
 WINDOW = (-0.011, 0.011), (-0.104, 0.104)
 SIDES = np.ptp(np.array(WINDOW), axis=1)
 
@@ -108,7 +108,7 @@ def test_neighbours_are_as_close_as_asked_for():
 def test_tight_spirals_are_round():
     """Where a curve winds up to a motion, lines between its points stay close to it."""
     corner = np.array([0.5, 0.5])
-    measure = Measure(-corner, corner, 0.01, 30.0, 1, 10**9)
+    measure = CurveMetric(-corner, corner, 0.01, 30.0, 1, 10**9)
 
     def spiral(at: np.ndarray) -> np.ndarray:
         radius = 0.02 * np.exp(-2.0 * at)
@@ -212,7 +212,7 @@ def test_tangles_are_found_where_curves_cross():
     points = np.zeros((data.sizes["crossing"], 5))
     points[:, 0], points[:, 1] = data["crossing_displacement"], data["crossing_velocity"]
     saddles = np.column_stack([data["saddle_displacement"], data["saddle_velocity"]]) / sides
-    stage = Stage(vi.Rig(rig, shaking))
+    stage = SectionSetup(vi.Rig(rig, shaking))
     states = follow(stage, points, None, NO_TRAPS, 0).states
     nearest = np.full(len(points), np.inf)
     for _ in range(24):
@@ -258,7 +258,7 @@ def test_work_is_bounded_and_what_is_left_out_is_told(monkeypatch):
 
 def test_a_strong_stretch_is_refined_only_up_to_the_length():
     """A piece that the map stretches to hundreds of thousands of windows keeps its beginning."""
-    measure = Measure(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
+    measure = CurveMetric(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
     asked = []
 
     def at(parameters: np.ndarray) -> np.ndarray:
@@ -273,7 +273,7 @@ def test_a_strong_stretch_is_refined_only_up_to_the_length():
 
 
 def test_what_was_given_up_ends_a_piece():
-    measure = Measure(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
+    measure = CurveMetric(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
 
     def at(parameters: np.ndarray) -> np.ndarray:
         lost = parameters > 7.5

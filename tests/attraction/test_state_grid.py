@@ -8,11 +8,17 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.attraction.label_states import NO_TRAPS, Region, Stage, follow, follow_region
+from vibroimpact.attraction.label_states import (
+    NO_TRAPS,
+    Region,
+    SectionSetup,
+    follow,
+    follow_region,
+)
 from vibroimpact.attraction.state_grid import lattice
 
 CASE = vi.laboratory.case("B3-10mm-A3")
-STAGE = Stage(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 0.7)))
+STAGE = SectionSetup(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 0.7)))
 BUMPERS = (0.002, -0.001, 0.0)
 
 

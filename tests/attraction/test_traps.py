@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import NO_TRAPS, Stage, Traps, follow, parts
+from vibroimpact.attraction.label_states import NO_TRAPS, SectionSetup, Traps, follow, parts
 from vibroimpact.engine.absorption import CENTRE, REACH, form_of, trap_width
 
 CASE = vi.laboratory.case("B3-10mm-A3")
@@ -18,7 +18,7 @@ CASE = vi.laboratory.case("B3-10mm-A3")
 
 @cache
 def searched(hertz: float) -> Search:
-    search = Search(Stage(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, hertz))))
+    search = Search(SectionSetup(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, hertz))))
     generator = np.random.default_rng(0)
     points = np.zeros((60, 5))
     points[:, :2] = generator.uniform(-1.0, 1.0, (60, 2)) * [0.012, 0.1]
@@ -92,7 +92,7 @@ def test_chaotic_motions_are_held_by_cells():
 @pytest.mark.full
 def test_motions_of_long_periods_have_a_trap_a_point():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.RigidStop(0.9, 0.0), None)
-    search = Search(Stage(vi.Rig(rig, vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)))))
+    search = Search(SectionSetup(vi.Rig(rig, vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)))))
     points = np.zeros((sample(400, 40), 5))
     generator = np.random.default_rng(3)
     points[:, :2] = generator.uniform([-1.0, -1.2], [0.0, 1.2], (len(points), 2))
@@ -114,7 +114,7 @@ def restituting() -> Search:
     """Two motions, one of which presses a stop at the section, not without its approach speed."""
     stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
     rig = CASE.oscillator.replace(right=stop, left=stop)
-    search = Search(Stage(vi.Rig(rig, vi.Harmonic("0.05 g", "2.5 Hz"))))
+    search = Search(SectionSetup(vi.Rig(rig, vi.Harmonic("0.05 g", "2.5 Hz"))))
     points = np.zeros((40, 5))
     points[:, :2] = np.random.default_rng(4).uniform(-1.0, 1.0, (40, 2)) * [0.012, 0.2]
     assert (search.label(points).owner >= 0).all()

@@ -114,11 +114,11 @@ def test_a_linear_rig_without_stops_is_an_oscillator_of_the_response_spectrum(
 
 def test_a_scale_is_a_record_that_was_scaled() -> None:
     from vibroimpact.datasets.stops import has_stops
-    from vibroimpact.earthquakes.peak_demands import Shaken, peaks
+    from vibroimpact.earthquakes.peak_demands import ScaledRecord, peaks
 
     factors = np.array([0.3, 1.0, 1.7])
     for rig in RIGS.values():
-        together = peaks([Shaken(rig, RECORD, factors)], residuals=True)
+        together = peaks([ScaledRecord(rig, RECORD, factors)], residuals=True)
         for k, factor in enumerate(factors.tolist()):
             alone = vi.seismic_response(vi.Rig(rig, RECORD.scaled(factor)))
             for name, values in together.items():

@@ -8,9 +8,9 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.attraction.label_states import (
     NO_TRAPS,
-    Followed,
+    CaughtStates,
     Region,
-    Stage,
+    SectionSetup,
     Traps,
     follow_region,
 )
@@ -21,7 +21,7 @@ from vibroimpact.response.prepared_rig import prepare
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7, 0.4)
-STAGE = Stage(vi.Rig(CASE.oscillator, EXCITATION))
+STAGE = SectionSetup(vi.Rig(CASE.oscillator, EXCITATION))
 STARTS = np.array([[0.0, 0.0], [0.01, 0.05], [-0.004, 0.08], [0.007, -0.02]])
 
 
@@ -31,11 +31,11 @@ def points() -> np.ndarray:
     return coordinates
 
 
-def followed(region: Region) -> Followed:
+def followed(region: Region) -> CaughtStates:
     return follow_region(region, np.zeros(2, dtype=np.int64))
 
 
-def begun(traps: Traps, cycles: int, stage: Stage = STAGE) -> Followed:
+def begun(traps: Traps, cycles: int, stage: SectionSetup = STAGE) -> CaughtStates:
     return followed(Region(stage, points(), np.zeros((len(STARTS), 8)), traps, cycles))
 
 

@@ -152,7 +152,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return made
 
 
-def choice() -> native.Choice:
+def choice() -> native.LibraryChoice:
     return native.choose.__wrapped__()
 
 

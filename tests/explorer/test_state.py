@@ -13,7 +13,7 @@ import vibroimpact as vi
 from vibroimpact.cli.study import read_study
 from vibroimpact.explorer import change, laws, presets, share
 from vibroimpact.explorer.controls import controls
-from vibroimpact.explorer.state import MOST_STEPS, History, begin
+from vibroimpact.explorer.state import MOST_STEPS, UndoHistory, begin
 
 CASE = presets.preset("B2-G1-A3")
 
@@ -110,7 +110,7 @@ def test_wrong_values_are_refused_in_words(path, value, words):
 
 
 def test_undo_redo_and_one_step_a_drag():
-    history = History(CASE, CASE)
+    history = UndoHistory(CASE, CASE)
     for value in (8e-3, 9e-3, 10e-3):
         history = history.to(change.moved(history.now, "stops.gap", value), "drag 1")
     dragged = history.now
@@ -125,7 +125,7 @@ def test_undo_redo_and_one_step_a_drag():
 
 
 def test_a_history_does_not_grow():
-    history = History(CASE, CASE)
+    history = UndoHistory(CASE, CASE)
     for k in range(3 * MOST_STEPS):
         history = history.to(change.moved(history.now, "mass", 500.0 + k))
     assert len(history.past) == MOST_STEPS

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.identification.residual_structure import CERTAIN, HINT, Row, structure
+from vibroimpact.identification.residual_structure import CERTAIN, HINT, ResidualSeries, structure
 
 PLACES = np.arange(23.0)
 
@@ -14,7 +14,7 @@ def judged(wave, noise=1.0, count=400, across=True):
     structures = []
     for _ in range(count):
         rows = [
-            Row(
+            ResidualSeries(
                 name,
                 PLACES,
                 wave * np.sin(PLACES / 3.0 + k) + noise * draw.normal(size=23),
@@ -45,7 +45,7 @@ def test_both_directions_tell_more_than_one():
 
 
 def test_residuals_far_above_the_noise_are_told_and_where_they_are():
-    rows = [Row("displacement", PLACES, np.where(PLACES > 17.0, 5.0, 0.1), PLACES)]
+    rows = [ResidualSeries("displacement", PLACES, np.where(PLACES > 17.0, 5.0, 0.1), PLACES)]
     shape = structure(rows, 3.0, 0.5, 20.0, 9.0)
     assert shape.excess == 6.0
     assert shape.excess_chance < CERTAIN
@@ -53,5 +53,7 @@ def test_residuals_far_above_the_noise_are_told_and_where_they_are():
 
 
 def test_no_noise_at_all_has_no_shape():
-    shape = structure([Row("displacement", PLACES, 0.0 * PLACES, PLACES)], 0.0, None, 20.0, 9.0)
+    shape = structure(
+        [ResidualSeries("displacement", PLACES, 0.0 * PLACES, PLACES)], 0.0, None, 20.0, 9.0
+    )
     assert shape.chance == shape.excess_chance == 1.0

@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.label_states import Stage, images
+from vibroimpact.attraction.label_states import SectionSetup, images
 from vibroimpact.tasks.threads import Workers
 
 _Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def cells_around(points: _Array) -> Cells:
     return Cells(low - room, (high - low + 2.0 * room) / SIDE)
 
 
-def closed(stage: Stage, cells: Cells, points: _Array, threads: Workers) -> _Mask | None:
+def closed(stage: SectionSetup, cells: Cells, points: _Array, threads: Workers) -> _Mask | None:
     """The cells that the points (u, u̇) of a motion visit, and all that follows from them.
 
     Returns
@@ -90,7 +90,7 @@ def _enter(mask: _Mask, at: NDArray[np.int64]) -> bool:
     return True
 
 
-def _images(stage: Stage, cells: Cells, chosen: _Mask, threads: Workers) -> _Mask | None:
+def _images(stage: SectionSetup, cells: Cells, chosen: _Mask, threads: Workers) -> _Mask | None:
     """The cells that the images of some cells meet."""
     rows, columns = np.nonzero(chosen)
     inside = np.linspace(0.0, 1.0, _SAMPLES)

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.label_states import Stage, images
+from vibroimpact.attraction.label_states import SectionSetup, images
 from vibroimpact.attraction.section_coordinates import met, remembered
 from vibroimpact.engine.absorption import CENTRE, OWNER, REACH, form_of, trap_width
 from vibroimpact.engine.state import ONE_MASS
@@ -44,7 +44,7 @@ _SLOWEST = 0.9999
 """Spectral radius of P's derivative above which no norm is sought."""
 
 
-def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
+def ellipsoids(stage: SectionSetup, points: _Array, size: float, owner: int) -> _Array:
     """A trap around each point of a periodic motion that has one.
 
     Parameters
@@ -80,7 +80,7 @@ def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
     return np.array(rows).reshape(-1, _TRAP)
 
 
-def _depth(stage: Stage, u: float, side: int) -> float:
+def _depth(stage: SectionSetup, u: float, side: int) -> float:
     """How deep a mass presses a stop, 0 being the right one (m)."""
     stops = stage.oscillator.right, stage.oscillator.left
     stop = stops[side]
@@ -89,7 +89,7 @@ def _depth(stage: Stage, u: float, side: int) -> float:
 
 
 def _ellipsoid(
-    stage: Stage,
+    stage: SectionSetup,
     point: _Array,
     kept: NDArray[np.int64],
     unit: _Array,

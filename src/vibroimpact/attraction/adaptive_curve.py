@@ -30,7 +30,7 @@ class Curve(NamedTuple):
     ended: str
 
 
-class Measure(NamedTuple):
+class CurveMetric(NamedTuple):
     """How curves are measured: lengths are in windows, whose sides count 1 each."""
 
     low: _Array
@@ -60,7 +60,7 @@ class Measure(NamedTuple):
         return inside
 
 
-def broken(points: _Array, measure: Measure) -> _Array:
+def broken(points: _Array, measure: CurveMetric) -> _Array:
     """The points with a row of NaN between neighbours that are farther apart than they may be.
 
     So it is at a rigid stop: a state about to strike it is one with the state that has struck it.
@@ -72,7 +72,7 @@ def broken(points: _Array, measure: Measure) -> _Array:
 class Allowance:
     """Forcing cycles that may still be simulated for a curve."""
 
-    def __init__(self, measure: Measure) -> None:
+    def __init__(self, measure: CurveMetric) -> None:
         self.all, self.used = measure.cycles, 0
 
     def use(self, cycles: int) -> None:
@@ -89,7 +89,7 @@ def refined(
     at: Callable[[_Array], _Array],
     begin: float,
     end: float,
-    measure: Measure,
+    measure: CurveMetric,
     longest: float,
     allowance: Allowance,
 ) -> tuple[_Array, str]:

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.absorbing_ellipsoids import ellipsoids
-from vibroimpact.attraction.label_states import PLACES, Stage
+from vibroimpact.attraction.label_states import PLACES, SectionSetup
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -53,7 +53,7 @@ class Attractor(NamedTuple):
 
 
 def attractor(
-    stage: Stage, state: _Array, steady_motion: Settled, owner: int
+    stage: SectionSetup, state: _Array, steady_motion: Settled, owner: int
 ) -> Attractor | Status:
     """Describe what a state of the engine settles on; why it is given up if that cannot be.
 
@@ -97,7 +97,7 @@ def check_loses(motion: xr.Dataset, steady_motion: Settled, which: str, remedy: 
         )
 
 
-def _points(steady_motion: Settled, stage: Stage) -> _Array | None:
+def _points(steady_motion: Settled, stage: SectionSetup) -> _Array | None:
     """Where it is at the section; None if a limit is met."""
     if not steady_motion.period:
         state = steady_motion.state.copy()

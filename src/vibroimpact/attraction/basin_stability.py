@@ -14,7 +14,7 @@ from vibroimpact.attraction.attractor_variables import POINTS, ranked
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.attraction.match_attractors import matched
 from vibroimpact.attraction.state_window import Window, read_window, walls, window
 from vibroimpact.datasets.description import describe, rig_parameters
@@ -130,7 +130,7 @@ def basin_stability(
     for value in values:
         here = varied.vary(rig, value) if varied else rig
         check_bounded(here)
-        searches.append(Search(Stage(here, max_events), max_cycles, workers))
+        searches.append(Search(SectionSetup(here, max_events), max_cycles, workers))
 
     def around_all() -> Window:
         every = [window(search) for search in searches]
@@ -187,7 +187,7 @@ def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:
     return min(low for low, _ in every), max(high for _, high in every)
 
 
-def _drawn(stage: Stage, ranges: Window, count: int, seed: int) -> _Array:
+def _drawn(stage: SectionSetup, ranges: Window, count: int, seed: int) -> _Array:
     """Draw random states in the part of the window that the mass can reach."""
     low, high = walls(stage)
     begin, end = max(ranges[0][0], low), min(ranges[0][1], high)

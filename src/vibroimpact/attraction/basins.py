@@ -19,7 +19,7 @@ from vibroimpact.attraction.attractor_variables import (
 )
 from vibroimpact.attraction.basin_metrics import border_distances
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.attraction.node_labels import NodeLabels, label_nodes
 from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.attraction.state_window import read_window, walls, window
@@ -174,7 +174,7 @@ def basins(
                 f"{name}: only for an Assembly; remove it, and pass displacement and velocity"
             )
     others = _others(rig.oscillator, deformation, isolator)
-    stage = Stage(rig, max_events)
+    stage = SectionSetup(rig, max_events)
     search = Search(stage, max_cycles, workers)
     ranges = read_window(displacement, velocity, lambda: window(search))
     points = lattice(*ranges, plan.shape[::-1], others)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.absorbing_cells import Cells, cells_around, closed
 from vibroimpact.attraction.attractors import Attractor, attractor
-from vibroimpact.attraction.label_states import NO_TRAPS, Points, Stage, Traps, follow
+from vibroimpact.attraction.label_states import NO_TRAPS, Points, SectionSetup, Traps, follow
 from vibroimpact.attraction.section_coordinates import has_no_memory
 from vibroimpact.engine.absorption import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.state import ONE_MASS
@@ -62,7 +62,9 @@ class Labelled(NamedTuple):
 class Search:
     """The motions that are known so far, and their traps."""
 
-    def __init__(self, stage: Stage, max_cycles: int = 2000, threads: Workers = None) -> None:
+    def __init__(
+        self, stage: SectionSetup, max_cycles: int = 2000, threads: Workers = None
+    ) -> None:
         self.stage = stage
         self.max_cycles = max_cycles
         self.threads = threads

@@ -34,7 +34,7 @@ _WORTH_IT = 16
 """Regions; fewer are followed here sooner than they travel to a cluster."""
 
 
-class Stage(NamedTuple):
+class SectionSetup(NamedTuple):
     """A rig and its limit of events; the section is at the phase of the shaking."""
 
     rig: Rig
@@ -69,7 +69,7 @@ NO_TRAPS = Traps(
 class Region(NamedTuple):
     """States to be followed, and how far."""
 
-    stage: Stage
+    stage: SectionSetup
     points: Points
     """u, u̇, u_R, u_L, z as the engine counts, where the motions begin; empty where they go on."""
     states: _Array
@@ -78,7 +78,7 @@ class Region(NamedTuple):
     cycles: int
 
 
-class Followed(NamedTuple):
+class CaughtStates(NamedTuple):
     """Where states were caught."""
 
     states: _Array
@@ -90,7 +90,7 @@ class Followed(NamedTuple):
     """`Status`: done where it was caught, not settled where it may yet be."""
 
 
-def follow_region(region: Region, tally: Tally) -> Followed:
+def follow_region(region: Region, tally: Tally) -> CaughtStates:
     """Follow the states of one region."""
     stage, points, states, traps, cycles = region
     begun = len(points) > 0
@@ -114,7 +114,7 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         tally,
     )
     outcome = results[:, absorption.OUTCOME].astype(np.int8)
-    return Followed(
+    return CaughtStates(
         states[outcome == Status.NOT_SETTLED],
         results[:, absorption.CAUGHT].astype(np.int8),
         results[:, absorption.CYCLES].astype(np.int32),
@@ -123,14 +123,14 @@ def follow_region(region: Region, tally: Tally) -> Followed:
 
 
 def follow(
-    stage: Stage,
+    stage: SectionSetup,
     points: Points | None,
     states: _Array | None,
     traps: Traps,
     cycles: int,
     threads: Workers = None,
     progress: Progress | None = None,
-) -> Followed:
+) -> CaughtStates:
     """Follow states in regions, over threads; no result depends on their number.
 
     Motions begin at the points, or go on from the states: one of the two is None.
@@ -140,18 +140,18 @@ def follow(
     number = max(len(begun), len(held))
     if not number:
         none = np.empty(0, dtype=np.int8)
-        return Followed(np.empty((0, ONE_MASS.width)), none, none.astype(np.int32), none)
+        return CaughtStates(np.empty((0, ONE_MASS.width)), none, none.astype(np.int32), none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     absorption.caught.prepare(engine_rig(stage.rig))
     if len(regions) < _WORTH_IT and not isinstance(threads, int):
         threads = None
     pieces = each(follow_region, regions, steps=number, threads=threads, progress=progress)
-    return Followed(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
+    return CaughtStates(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
 
 def images(
-    stage: Stage, points: _Array, cycles: int = 1, threads: Workers = None
+    stage: SectionSetup, points: _Array, cycles: int = 1, threads: Workers = None
 ) -> tuple[_Array, NDArray[np.bool_]]:
     """Where points of the section are some cycles later (nan if unknown), and which are known.
 

@@ -17,11 +17,11 @@ from vibroimpact.attraction.adaptive_curve import (
     IMAGES,
     LONGEST,
     Curve,
-    Measure,
+    CurveMetric,
 )
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.attraction.saddles import Saddle, border_saddles, given_saddle, saddle_points
 from vibroimpact.attraction.section_coordinates import remembered
 from vibroimpact.attraction.stable_manifold import stable_curve
@@ -145,7 +145,7 @@ def manifolds(
     progress = progress or shown_by_default("manifolds")
     workers = workers_for(threads)
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
-    stage = Stage(rig, max_events)
+    stage = SectionSetup(rig, max_events)
     *bumpers, isolator = remembered(stage)[2:]
     if isolator or any(bumpers):
         why, change = "the isolator is hysteretic", "use an isolator without hysteresis"
@@ -170,7 +170,7 @@ def manifolds(
         ]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
     share_of_cycles = max(curve_cycles // max(len(_SIDES) * len(points), 1), 1)
-    measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES, share_of_cycles)
+    measure = CurveMetric(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES, share_of_cycles)
     curves = _curves(stage, points, measure, workers, progress)
     data = _dataset(points, curves, measure)
     return describe(
@@ -189,9 +189,9 @@ def manifolds(
 
 
 def _curves(
-    stage: Stage,
+    stage: SectionSetup,
     saddles: list[Saddle],
-    measure: Measure,
+    measure: CurveMetric,
     workers: Workers,
     progress: Progress | None,
 ) -> list[list[tuple[str, Curve]]]:
@@ -253,7 +253,7 @@ def _continuing(curves: list[list[tuple[str, Curve]]]) -> list[str]:
 
 
 def _dataset(
-    saddles: list[Saddle], curves: list[list[tuple[str, Curve]]], measure: Measure
+    saddles: list[Saddle], curves: list[list[tuple[str, Curve]]], measure: CurveMetric
 ) -> xr.Dataset:
     every = [(i, kind, one) for i, some in enumerate(curves) for kind, one in some]
     points = np.vstack([*(one.points for _, _, one in every), np.empty((0, 2))])
@@ -292,6 +292,6 @@ def _dataset(
     return xr.Dataset(values)
 
 
-def _length(curve: Curve, measure: Measure) -> float:
+def _length(curve: Curve, measure: CurveMetric) -> float:
     steps = np.linalg.norm(measure.scaled(np.diff(curve.points, axis=0)), axis=1)
     return float(np.nansum(steps))

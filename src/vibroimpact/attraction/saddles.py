@@ -14,7 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import IN_PLANE, NO_TRAPS, Stage, follow
+from vibroimpact.attraction.label_states import IN_PLANE, NO_TRAPS, SectionSetup, follow
 from vibroimpact.attraction.section_coordinates import met
 from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.attraction.state_window import Window
@@ -84,7 +84,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     return saddles
 
 
-def check_flies(stage: Stage, orbit: Orbit) -> None:
+def check_flies(stage: SectionSetup, orbit: Orbit) -> None:
     """Check that no point of an orbit has more to it than the plane shows.
 
     It must not press a stop whose force depends on the speed at which it was met.
@@ -109,7 +109,7 @@ def relaxed(point: _Array) -> _Array:
     return relaxed_point
 
 
-def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: str) -> Orbit:
+def given_saddle(stage: SectionSetup, orbit: xr.Dataset | State, period: int, where: str) -> Orbit:
     """A saddle from a dataset of `orbit`, or near a state."""
     fam = family(stage.rig, "frequency")
     start = orbit

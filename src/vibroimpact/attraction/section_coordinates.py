@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.state import ONE_MASS
 from vibroimpact.response.engine_system import engine_rig
@@ -16,7 +16,7 @@ FORGOTTEN = 20.0
 """What relaxes by more powers of e in a cycle is forgotten: 2e-9 of it is left."""
 
 
-def remembered(stage: Stage) -> NDArray[np.bool_]:
+def remembered(stage: SectionSetup) -> NDArray[np.bool_]:
     """Which of u, u̇, u_R, u_L and z a motion remembers from one section to the next."""
     rig = engine_rig(stage.rig)
     parts = np.zeros(_PARTS.total, dtype=bool)
@@ -29,7 +29,7 @@ def remembered(stage: Stage) -> NDArray[np.bool_]:
     return parts
 
 
-def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
+def met(stage: SectionSetup, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which parts of one point hold the speed at which a stop was met.
 
     A power-law stop with a restitution divides by it as long as it is pressed, and keeps it where
@@ -46,6 +46,6 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     return parts
 
 
-def has_no_memory(stage: Stage) -> bool:
+def has_no_memory(stage: SectionSetup) -> bool:
     """Whether u and u̇ at the section determine a motion."""
     return not remembered(stage)[2:].any()

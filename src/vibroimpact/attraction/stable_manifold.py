@@ -18,9 +18,9 @@ from vibroimpact.attraction.adaptive_curve import (
     LONGEST,
     Allowance,
     Curve,
-    Measure,
+    CurveMetric,
 )
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.attraction.saddles import Saddle
 from vibroimpact.attraction.section_coordinates import met
 from vibroimpact.engine.status import Status
@@ -43,7 +43,7 @@ _FINEST = 1e-9
 
 
 def stable_curve(
-    saddle: Saddle, side: int, measure: Measure, tell: Callable[[float], None]
+    saddle: Saddle, side: int, measure: CurveMetric, tell: Callable[[float], None]
 ) -> Curve:
     """One side of a saddle's stable curve, preimage by preimage.
 
@@ -74,7 +74,7 @@ class _Chains:
         saddle: Saddle,
         section: Section,
         side: int,
-        measure: Measure,
+        measure: CurveMetric,
         factor: float,
         tell: Callable[[float], None],
     ) -> None:
@@ -83,7 +83,7 @@ class _Chains:
         self.value = saddle.orbit.value
         along = section.family
         # Where an image presses such a stop it has more to it than the plane of its preimages.
-        self.hidden = met(Stage(along.rig), np.ones(5))
+        self.hidden = met(SectionSetup(along.rig), np.ones(5))
         self.origin = saddle.point
         self.way = side * saddle.stable / np.linalg.norm(measure.scaled(saddle.stable))
         self.parameters = list(np.linspace(0.0, 1.0, _FIRST))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.attraction.find_attractors import Search
-from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.label_states import SectionSetup
 from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -29,7 +29,7 @@ LATTICE = 20
 """Starts along each axis."""
 
 
-def walls(stage: Stage) -> tuple[float, float]:
+def walls(stage: SectionSetup) -> tuple[float, float]:
     """Least and largest displacement that can be (m)."""
     left, right = stage.oscillator.left, stage.oscillator.right
     return (

@@ -11,11 +11,11 @@ from vibroimpact.attraction.adaptive_curve import (
     IMAGES,
     Allowance,
     Curve,
-    Measure,
+    CurveMetric,
     broken,
     refined,
 )
-from vibroimpact.attraction.label_states import Stage, images
+from vibroimpact.attraction.label_states import SectionSetup, images
 from vibroimpact.attraction.saddles import Saddle
 from vibroimpact.tasks.threads import Workers
 
@@ -28,10 +28,10 @@ _ARRIVED = 0.02
 
 
 def unstable_curve(
-    stage: Stage,
+    stage: SectionSetup,
     saddle: Saddle,
     side: int,
-    measure: Measure,
+    measure: CurveMetric,
     workers: Workers,
     tell: Callable[[float], None],
 ) -> Curve:
@@ -69,10 +69,10 @@ class _Images:
 
     def __init__(
         self,
-        stage: Stage,
+        stage: SectionSetup,
         saddle: Saddle,
         side: int,
-        measure: Measure,
+        measure: CurveMetric,
         workers: Workers,
         allowance: Allowance,
     ) -> None:

@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.vary import Varied, Vary, read_vary_text
+from vibroimpact.cli.vary import Vary, VaryOption, read_vary_text
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ def scenario_map(
     )
 
 
-def _axis(path: str, text: str, of: Of) -> Varied:
+def _axis(path: str, text: str, of: Of) -> VaryOption:
     """Read an axis."""
     from vibroimpact.model.parameters import canonical, usual
     from vibroimpact.scenarios.axes import NAMES

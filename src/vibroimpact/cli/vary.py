@@ -36,7 +36,7 @@ Vary: TypeAlias = Annotated[
 ]
 
 
-class Varied(NamedTuple):
+class VaryOption(NamedTuple):
     """A parameter that is varied, and its range in SI units."""
 
     name: str
@@ -83,7 +83,7 @@ def _example(varied: Parameter, now: float | None) -> str:
     return f", such as {low}:{high}, which is ±30 % of that of the rig"
 
 
-def read_vary_text(path: str, varied: Parameter, text: str, now: float | None = None) -> Varied:
+def read_vary_text(path: str, varied: Parameter, text: str, now: float | None = None) -> VaryOption:
     """Read ``LOW:HIGH[:log][:NUMBER]``. `now` is the value of the rig, for messages.
 
     Raises
@@ -120,10 +120,10 @@ def read_vary_text(path: str, varied: Parameter, text: str, now: float | None = 
             )
         if number > MOST:
             raise InputError(f"{option}: {number} values; pass at most {MOST}")
-    return Varied(varied.name, low, high, number, logarithmic)
+    return VaryOption(varied.name, low, high, number, logarithmic)
 
 
-def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[Varied]:
+def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[VaryOption]:
     """Read the options --vary, or such ranges by path. A frequency alone has a default range.
 
     Raises
@@ -160,7 +160,7 @@ def _value(what: Subject, varied: Parameter) -> float | None:
         return None
 
 
-def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> Varied:
+def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> VaryOption:
     """Read one option --vary. By default the frequency is varied.
 
     Without `number`, the values between the ends are not chosen by the user.
@@ -182,8 +182,8 @@ def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> Var
 
 
 def split_sines(
-    varied: Sequence[Varied],
-) -> tuple[list[Varied], tuple[float, float] | None]:
+    varied: Sequence[VaryOption],
+) -> tuple[list[VaryOption], tuple[float, float] | None]:
     """Return the varied parameters without the frequency, and the range of the frequency or None.
 
     Raises
@@ -203,7 +203,7 @@ def split_sines(
     return others, None
 
 
-def check_continuous(one: Varied) -> None:
+def check_continuous(one: VaryOption) -> None:
     """Refuse a number of values, and a spacing, of a parameter along which a curve is followed."""
     if one.number is not None or one.logarithmic:
         raise InputError(
@@ -212,7 +212,7 @@ def check_continuous(one: Varied) -> None:
         )
 
 
-def _frequencies(what: Subject) -> Varied:
+def _frequencies(what: Subject) -> VaryOption:
     """Return the default range of the frequency."""
     from vibroimpact.cli.frequency_grid import NO_DEFAULT, default_span
     from vibroimpact.model.quantities import FREQUENCY
@@ -226,4 +226,4 @@ def _frequencies(what: Subject) -> Varied:
             f"--vary: frequency: the range of the study, from {pretty(low, FREQUENCY)} to "
             f"{pretty(high, FREQUENCY)}, is empty; pass a range"
         )
-    return Varied("frequency", low, high, None, False)
+    return VaryOption("frequency", low, high, None, False)

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.stops import part_names
-from vibroimpact.earthquakes.peak_demands import Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import ScaledRecord, peaks
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.status import Status
@@ -52,7 +52,7 @@ def gaps_for_records(
     free = assembly.without_stops()
     # What closes at a stop is the drift of its bodies the other way.
     closing = [Drift(*assembly.ends(stop)[::-1]) for stop in assembly.stops.values()]
-    runs = [Shaken(free, record, np.ones(1), closing) for record in records.values()]
+    runs = [ScaledRecord(free, record, np.ones(1), closing) for record in records.values()]
     peak_values = peaks(runs, tail=tail, threads=workers, progress=progress)
     for status in map(Status, peak_values["status"][:, 0].tolist()):
         if status is Status.NOT_FINITE:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.design.worst_sine import Sines
-from vibroimpact.earthquakes.peak_demands import Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import ScaledRecord, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
@@ -114,7 +114,7 @@ class ByRecords(NamedTuple):
         """Of each record and rig, as arrays (record, rig)."""
         records = list(self.records.values())
         peak_values = peaks(
-            [Shaken(rig, record, np.ones(1)) for record in records for rig in rigs],
+            [ScaledRecord(rig, record, np.ones(1)) for record in records for rig in rigs],
             tail=self.tail,
             threads=workers,
             progress=progress,

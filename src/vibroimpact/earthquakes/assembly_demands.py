@@ -16,7 +16,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_system import engine_system
-from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases
+from vibroimpact.response.motion_phases import Course, PartColumns, PhaseRecord, Phases
 from vibroimpact.response.record_history import straight
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.tasks.threads import Progress
@@ -89,7 +89,7 @@ def seismic_response_of_assembly(
     values = _nothing(assembly)
     if status is Status.DONE:
         nothing = np.empty(0)
-        motion = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
+        motion = Phases(assembly, PhaseRecord(status, rows, nothing, nothing), begin, final)
         peaks = extremes(motion)
         values = {name: peaks[name] for name in PEAKS} | energies(motion)
     data = xr.Dataset(values, assembly.part_names)

@@ -21,7 +21,7 @@ With two records that begin to exceed within the levels, a weight falls as the s
 within 18."""
 
 
-class Curves(NamedTuple):
+class WeightedCurves(NamedTuple):
     """Curves Φ((ln s − ln θ)/β) and their weights, whose sum is 1."""
 
     log_median: _Array
@@ -74,7 +74,9 @@ def begin_to_exceed(exceeding: NDArray[np.int64], count: int) -> _Array:
     return np.diff(np.array([0.0, *rising, float(count)]))
 
 
-def credible_curves(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Curves | None:
+def credible_curves(
+    exceeding: NDArray[np.int64], count: int, logarithms: _Array
+) -> WeightedCurves | None:
     """Weigh all lognormal curves by the likelihood of what the records show.
 
     The capacity of a record (the scale from which on it exceeds) is lognormal, and lies between two
@@ -116,7 +118,7 @@ def credible_curves(exceeding: NDArray[np.int64], count: int, logarithms: _Array
     logs = weigh.of(offsets, every)
     weight = np.exp(logs - logs.max()) * (high - low)[:, np.newaxis]
     slope = np.exp(every)
-    return Curves(
+    return WeightedCurves(
         (middle - offsets / slope * size).ravel(),
         (math.log(size) - every).ravel(),
         (weight / weight.sum()).ravel(),

@@ -23,7 +23,7 @@ from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
     PEAKS,
     RESIDUALS,
-    Shaken,
+    ScaledRecord,
     peaks,
 )
 from vibroimpact.earthquakes.run_plan import (
@@ -55,8 +55,8 @@ from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.assembly_rows import check_alike
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
-from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read, write_block
+from vibroimpact.stores.zarr_store import StorePart as Part
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
@@ -281,7 +281,7 @@ class _Task(NamedTuple):
         chosen = range(one.records.start, one.records.stop)
         rigs = [self.rigs.system(at) for at in places]
         peak_values = peaks(
-            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
+            [ScaledRecord(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
             tail=self.tail,
             residuals=True,
             max_events=self.max_events,

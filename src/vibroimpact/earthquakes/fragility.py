@@ -26,7 +26,7 @@ _IN_ERROR = 2
 """The same for an error, which is one short line."""
 
 
-class Fit(NamedTuple):
+class LognormalFit(NamedTuple):
     """A lognormal curve Φ((ln s − ln θ)/β)."""
 
     log_median: float
@@ -283,7 +283,7 @@ def _curve(
     return values
 
 
-def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
+def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> LognormalFit | None:
     """Fit the curve of the largest binomial likelihood.
 
     `exceeding` is the number of records, of `count`, that exceed at each scale.
@@ -319,4 +319,4 @@ def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | N
     a, b = optimum.x
     if not b > 0.0:
         return None
-    return Fit(middle - a / b * size, math.log(size / b))
+    return LognormalFit(middle - a / b * size, math.log(size / b))

@@ -52,7 +52,7 @@ _AT_ONCE = 64
 """Scales of one call of the engine, at most."""
 
 
-class Shaken(NamedTuple):
+class ScaledRecord(NamedTuple):
     """An oscillator or an assembly, a record, and the numbers that the record is multiplied by."""
 
     system: System
@@ -78,7 +78,7 @@ class _Prepared(NamedTuple):
     """Whether it depends on the motion where the mass comes to rest."""
 
 
-def _prepared(one: Shaken) -> _Prepared:
+def _prepared(one: ScaledRecord) -> _Prepared:
     states = engine_system(one.system)
     vector = states.numbers(one.record, tables=True, drifts=one.drifts)
     count, moves_on = demand.EVERYTHING, False
@@ -91,7 +91,7 @@ def _prepared(one: Shaken) -> _Prepared:
 
 
 def peaks(
-    shaken: Sequence[Shaken],
+    shaken: Sequence[ScaledRecord],
     *,
     tail: float | None = None,
     energies: bool = False,
@@ -137,7 +137,7 @@ def peaks(
         for n, some in parts
     ]
 
-    def task(item: tuple[Shaken, _Prepared], tally: Tally) -> _Array:
+    def task(item: tuple[ScaledRecord, _Prepared], tally: Tally) -> _Array:
         (system, record, factors, _), engine = item
         rig = Rig(system, record)
         mine = np.empty((len(factors), engine.numbers))
@@ -177,7 +177,7 @@ def _by_run(progress: Progress, runs: int, done: int, total: int | None) -> None
 
 
 def _named(
-    shaken: Sequence[Shaken], rows: _Array, energies: bool, residuals: bool
+    shaken: Sequence[ScaledRecord], rows: _Array, energies: bool, residuals: bool
 ) -> dict[str, NDArray[Any]]:
     """The engine's numbers of oscillators in SI units, by name."""
     oscillators = [one_mass_only(one.system) for one in shaken]

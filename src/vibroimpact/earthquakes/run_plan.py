@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record, Rig
-from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated
+from vibroimpact.model.parameter_ranges import ParameterValues, Values, read_values, stated
 from vibroimpact.model.parameters import set_values
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.rig import with_stated_units
@@ -31,7 +31,7 @@ class Runs(NamedTuple):
     """Rigs, and what is varied of them."""
 
     rigs: dict[str, System]
-    varied: tuple[Varied, ...]
+    varied: tuple[ParameterValues, ...]
     several: bool
     """Whether the rigs are a dim."""
 

@@ -11,7 +11,7 @@ from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops
 from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, ScaledRecord, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
 from vibroimpact.model import to_si
@@ -98,7 +98,7 @@ def seismic_response(
         return _described(data, status, rig, behind, notes)
     oscillator = rig.oscillator
     peak_values = peaks(
-        [Shaken(oscillator, record, np.ones(1))],
+        [ScaledRecord(oscillator, record, np.ones(1))],
         tail=behind,
         energies=True,
         residuals=True,

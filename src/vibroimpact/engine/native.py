@@ -76,7 +76,7 @@ def levels() -> list[str]:
     return [level for level, needed in known.items() if all(features.get(one) for one in needed)]
 
 
-class Choice(NamedTuple):
+class LibraryChoice(NamedTuple):
     """Whether a library is used."""
 
     path: Path | None
@@ -93,25 +93,25 @@ def shipped() -> Path | None:
 
 
 @functools.cache
-def choose() -> Choice:
+def choose() -> LibraryChoice:
     """Choose the library for this machine and these sources, if there is one."""
     if os.environ.get("VIBROIMPACT_ENGINE") == "numba":
-        return Choice(None, "VIBROIMPACT_ENGINE is numba")
+        return LibraryChoice(None, "VIBROIMPACT_ENGINE is numba")
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
-        return Choice(None, "NUMBA_DISABLE_JIT is set")
+        return LibraryChoice(None, "NUMBA_DISABLE_JIT is set")
     path = shipped()
     if path is None:
-        return Choice(None, f"there is no machine code for {sys.platform}, {machine()}")
+        return LibraryChoice(None, f"there is no machine code for {sys.platform}, {machine()}")
     if (FOLDER / DIGEST).read_text().strip() != digest():
-        return Choice(None, f"{path.name} was made of other sources (make kernels)", True)
+        return LibraryChoice(None, f"{path.name} was made of other sources (make kernels)", True)
     # Whoever can write to it can run code as the user.
     owners = (SOURCE.stat().st_uid,)
     if writable := cache.writable_by_others((FOLDER, path), owners):
         why = f"other users may write to {str(writable)!r} (chmod go-w)"
         if cache.is_foreign(writable, owners):
             why = f"{str(writable)!r} belongs to another user (chown it, or install it yourself)"
-        return Choice(None, why, True)
-    return Choice(path)
+        return LibraryChoice(None, why, True)
+    return LibraryChoice(path)
 
 
 def find_library() -> Path | None:

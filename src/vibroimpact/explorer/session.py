@@ -20,7 +20,7 @@ from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
 from vibroimpact.explorer.laws import isolator_laws, stop_laws, words_of_stops
 from vibroimpact.explorer.pictures import basins, branch, curves, motion, numbers, plane, scenario
-from vibroimpact.explorer.state import ON_DEMAND, History, PageState
+from vibroimpact.explorer.state import ON_DEMAND, PageState, UndoHistory
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import unitless, written_for
@@ -60,7 +60,7 @@ class Session:
     """
 
     def __init__(self, first: PageState) -> None:
-        self.history = History(first, first)
+        self.history = UndoHistory(first, first)
         self.asked = 0
         """Number of requests. Pictures of an older request are not computed any more."""
         self.number: int | None = None
@@ -117,7 +117,7 @@ class Session:
             self._sent.pop(kind, None)  # what is put away is made again when it is asked for
         return {**answer, "n": number}
 
-    def _next(self, message: Message) -> History:
+    def _next(self, message: Message) -> UndoHistory:
         """What the message makes of the history."""
         history, now, do = self.history, self.history.now, message["do"]
         if do == "undo":
@@ -130,7 +130,7 @@ class Session:
             return history.restart(presets.preset(_text(message, "name")))
         if do == "open":
             opened = share.from_address(message.get("address"))
-            return History(opened, opened)
+            return UndoHistory(opened, opened)
         if do == "change":
             value = _value(message, "value")
             gesture = str(message.get("gesture") or "")[:40]
@@ -279,7 +279,7 @@ class Session:
         return curves.curves(state, self._swept(state, fine, progress), fine)
 
 
-def shown_as(history: History) -> Message:
+def shown_as(history: UndoHistory) -> Message:
     """Return the present state in the form in which it is sent to a page.
 
     Raises

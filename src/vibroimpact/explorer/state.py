@@ -96,7 +96,7 @@ def _short(value: float) -> float:
     return float(f"{value:.1e}")
 
 
-class History(NamedTuple):
+class UndoHistory(NamedTuple):
     """The present state of a page, its first state, and the states for undo and redo."""
 
     first: PageState
@@ -107,7 +107,7 @@ class History(NamedTuple):
     gesture: str = ""
     """Name of the last gesture. All states of one gesture, such as a drag, are one step of undo."""
 
-    def to(self, state: PageState, gesture: str = "") -> History:
+    def to(self, state: PageState, gesture: str = "") -> UndoHistory:
         """Return the history with a new present state."""
         if state == self.now:
             return self._replace(gesture=gesture)
@@ -116,7 +116,7 @@ class History(NamedTuple):
         past = (*self.past, self.now)[-MOST_STEPS:]
         return self._replace(now=state, past=past, future=(), gesture=gesture)
 
-    def undo(self) -> History:
+    def undo(self) -> UndoHistory:
         """Return to the previous state, if there is one."""
         if not self.past:
             return self
@@ -124,7 +124,7 @@ class History(NamedTuple):
         future = (self.now, *self.future)[:MOST_STEPS]
         return self._replace(now=now, past=tuple(past), future=future, gesture="")
 
-    def redo(self) -> History:
+    def redo(self) -> UndoHistory:
         """Return to the state before the last undo, if there was one."""
         if not self.future:
             return self
@@ -132,6 +132,6 @@ class History(NamedTuple):
         past = (*self.past, self.now)[-MOST_STEPS:]
         return self._replace(now=now, past=past, future=tuple(future), gesture="")
 
-    def restart(self, state: PageState) -> History:
+    def restart(self, state: PageState) -> UndoHistory:
         """Start with another rig. Undo returns to the present rig."""
         return self.to(state)._replace(first=state)

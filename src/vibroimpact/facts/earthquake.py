@@ -50,9 +50,9 @@ _ROWS = (
         "contact force",
         "peak_force",
         remark=lambda of: f"impulse {values_text(of.response, 'impulse')}",
-        shown=lambda of: _has_contacts(of),
+        applies=lambda of: _has_contacts(of),
     ),
-    Row("contacts", "impact_count", shown=lambda of: _has_contacts(of)),
+    Row("contacts", "impact_count", applies=lambda of: _has_contacts(of)),
     Row("energy supplied", ENERGIES[0], like=ENERGIES, remark=lambda of: _lost(of)),
     Row("resting position", "residual_displacement", 6, remark=lambda of: _unsettled(of)),
 )

@@ -49,7 +49,7 @@ _FORCES = ("transmitted_force_min", "transmitted_force_max")
 _ENERGIES = ("energy_supplied", "energy_bumpers")
 _ROWS = (
     Row("evidence", lambda data: str(data.attrs["evidence"])),
-    Row("note", lambda data: _slow(data), shown=lambda data: _slow(data)),
+    Row("note", lambda data: _slow(data), applies=lambda data: _slow(data)),
     Row("exponents", lambda data: _exponents(data), of=("exponents_cycles",)),
     Row("displacement", _ENDS, 5),
     Row("eccentricity", "eccentricity", like=_ENDS),
@@ -57,7 +57,7 @@ _ROWS = (
     Row(  # if the base moves, it is in proportion to the absolute acceleration
         "transmitted force",
         lambda data: _force(data),
-        shown=base_at_rest,
+        applies=base_at_rest,
         of=(*_FORCES, "transmissibility"),
     ),
     Row(
@@ -72,13 +72,13 @@ _LAST_ROWS = (
     Row(
         "reached from",
         lambda data: str(data.attrs["starts"]),
-        shown=lambda data: data.attrs.get("starts"),
+        applies=lambda data: data.attrs.get("starts"),
     ),
     Row(
         "mirror image",
         lambda data: str(data.attrs["mirrored_starts"]),
         words="reached from {}",
-        shown=lambda data: data.attrs.get("mirrored_starts"),
+        applies=lambda data: data.attrs.get("mirrored_starts"),
     ),
 )
 _UNWRITTEN = (

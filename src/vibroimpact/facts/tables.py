@@ -106,7 +106,7 @@ class Row(NamedTuple):
     """Words around the values."""
     remark: Callable[[Any], str] = lambda _: ""
     """Remark, in a column of its own."""
-    shown: Callable[[Any], Any] = lambda _: True
+    applies: Callable[[Any], Any] = lambda _: True
     """Whether there is such a row."""
     of: tuple[str, ...] = ()
     """Variables that functions of the row write."""
@@ -149,7 +149,7 @@ def values_text(
 def sheet_of(data: xr.Dataset, rows: Iterable[Row], whole: Any = None) -> Table:
     """Return the sheet of declared rows, whose functions get `whole`; default: the dataset."""
     whole = data if whole is None else whole
-    return sheet(one.texts(data, whole) for one in rows if one.shown(whole))
+    return sheet(one.texts(data, whole) for one in rows if one.applies(whole))
 
 
 def sheet(rows: Iterable[tuple[str, ...]]) -> Table:

@@ -24,7 +24,13 @@ from vibroimpact.figures.assembly import BOX, PENS, draw
 from vibroimpact.figures.assembly_motion import History, history
 from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import File, Seconds, String
-from vibroimpact.model.assembly.drawing import Drawing, Moved, column_width, drawing, gap_scale
+from vibroimpact.model.assembly.drawing import (
+    Drawing,
+    MotionFrame,
+    column_width,
+    drawing,
+    gap_scale,
+)
 from vibroimpact.model.names import literal
 from vibroimpact.model.public import public
 from vibroimpact.model.units import plain
@@ -142,7 +148,7 @@ class _Moving:
     def _drawn(
         self, assembly: Assembly, displacement: dict[str, float], deformation: dict[str, float]
     ) -> Drawing:
-        return drawing(assembly, Moved(displacement, deformation, self.scale))
+        return drawing(assembly, MotionFrame(displacement, deformation, self.scale))
 
     def values(self, at: _Array) -> _Array:
         """Return displacements and deformations at some times: one row for each time."""

@@ -18,7 +18,7 @@ from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import by_name, looks
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import EDGE, Look, panels
+from vibroimpact.figures.style import EDGE, CurveStyle, panels
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.names import literal
@@ -102,11 +102,13 @@ def mass_envelopes(
     return panel_axes
 
 
-def _style(look: Look) -> dict[str, Any]:
+def _style(look: CurveStyle) -> dict[str, Any]:
     return look.marks(empty="white") | look.line
 
 
-def _draw(panel_axes: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:
+def _draw(
+    panel_axes: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: CurveStyle
+) -> None:
     moved, drift, shaken = panel_axes
     rank = {name: i for i, name in enumerate(assembly.names)}
     extrema = totals(motion)

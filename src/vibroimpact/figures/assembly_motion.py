@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from vibroimpact.engine.observers.record import IMPACT
 from vibroimpact.errors import InputError
 from vibroimpact.figures.figure_dimensions import columns_that_fit
 from vibroimpact.figures.finish import without_unit
@@ -24,8 +25,6 @@ from vibroimpact.response.motion_phases import contact_intervals
 
 _Array = NDArray[np.float64]
 
-HIT = 2
-"""Kinds of events: a contact begins, and an impact on a rigid stop."""
 _PAGE = 7.2
 """Width of a new figure in inches."""
 
@@ -78,7 +77,7 @@ class History(NamedTuple):
     def hits(self, stop: str) -> NDArray[np.intp]:
         """Return the indices of the impacts on a rigid stop that are drawn."""
         mine = (self.motion["event_stop"].values == stop) & (
-            self.motion["event_contact"].values == HIT
+            self.motion["event_contact"].values == IMPACT
         )
         first, last = self.span
         return np.flatnonzero(mine & (self.event_at >= first) & (self.event_at <= last))

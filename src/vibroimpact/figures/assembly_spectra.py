@@ -18,11 +18,11 @@ from vibroimpact.figures.assembly_motion import chosen, label_values, rows_of_pa
 from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.lines import check_lines, label_orders, nearly_continuous
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import Look
+from vibroimpact.figures.style import CurveStyle
 
 _RANGE = 1e-4
 """Amplitude at the lower end of the axes, relative to the largest one."""
-_LOOK = Look("", "black", "-", 0.8, "o", 3.0, True)
+_LOOK = CurveStyle("", "black", "-", 0.8, "o", 3.0, True)
 
 
 @finished

@@ -22,7 +22,7 @@ from vibroimpact.figures.labels import Names
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.resonance_panels import draws_eta
-from vibroimpact.figures.style import Look, sweeps_of
+from vibroimpact.figures.style import CurveStyle, sweeps_of
 from vibroimpact.model.oscillator import SIDES
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
@@ -40,13 +40,15 @@ _MARKS = 60
 
 _DOUBLING, _TORUS = (0, (3, 1.5)), (0, (5, 1.5, 1, 1.5))
 MARKS = {
-    "fold": Look("fold", "#c05a00", "-", 1.4, "o", 5.0, True),
-    "symmetry breaking": Look("symmetry breaking", "#7a3e9d", (0, (6, 2)), 1.4, "s", 5.0, True),
-    "period doubling": Look("period doubling", "#00795c", _DOUBLING, 1.4, "^", 5.0, True),
-    "Neimark-Sacker": Look("Neimark–Sacker", "#b0006d", _TORUS, 1.4, "D", 5.0, True),
-    "branching": Look("branching", "#1f4fbf", "-", 1.4, "X", 5.0, True),
+    "fold": CurveStyle("fold", "#c05a00", "-", 1.4, "o", 5.0, True),
+    "symmetry breaking": CurveStyle(
+        "symmetry breaking", "#7a3e9d", (0, (6, 2)), 1.4, "s", 5.0, True
+    ),
+    "period doubling": CurveStyle("period doubling", "#00795c", _DOUBLING, 1.4, "^", 5.0, True),
+    "Neimark-Sacker": CurveStyle("Neimark–Sacker", "#b0006d", _TORUS, 1.4, "D", 5.0, True),
+    "branching": CurveStyle("branching", "#1f4fbf", "-", 1.4, "X", 5.0, True),
     # A ring around what it falls on: a fold or a period doubling is often a hair away.
-    "grazing": Look("grazing", "black", (0, (1, 1.2)), 1.4, "o", 9.0, False),
+    "grazing": CurveStyle("grazing", "black", (0, (1, 1.2)), 1.4, "o", 9.0, False),
 }
 """Marks of bifurcations on a branch, and lines of their curves."""
 

@@ -13,7 +13,7 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import DrawnMotion, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import DrawnMotion, cycles_shown, drawn_motions, named
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, SHADE, panels
 
@@ -59,7 +59,7 @@ def clearances(
         positive.
     """
     given_motions = named(motions)
-    curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
+    curves = drawn_motions(given_motions, cycles_shown(given_motions, cycles, 2))
     if not any(curve.gaps for curve in curves):
         raise InputError(
             "motions: none of their rigs has a stop; pass a motion of a rig with a stop"

@@ -11,11 +11,11 @@ from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.finish import base_label, finished, in_unit
 from vibroimpact.figures.motion_style import (
     axes_or_new,
+    drawn_motions,
     force_unit,
     gap_lines,
     name_lines,
     named,
-    shown,
 )
 
 
@@ -52,7 +52,7 @@ def hysteresis_cycle(
     """
     ax = axes_or_new(ax, (5.2, 4.4), title)
     named_motions = named(motions, records=True)
-    curves = shown(named_motions)
+    curves = drawn_motions(named_motions)
     force = all(base_at_rest(motion) for motion in named_motions.values())
     name, factor = "acceleration", 1.0
     label = "absolute acceleration $\\ddot u + A_t$ (m/s²)"

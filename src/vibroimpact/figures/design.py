@@ -25,7 +25,7 @@ from vibroimpact.figures.legends import add_legend, apply_layout, fit_labels
 from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.plane import scale_axis
-from vibroimpact.figures.style import Look, panels
+from vibroimpact.figures.style import CurveStyle, panels
 from vibroimpact.model import GRAVITY, Rig
 from vibroimpact.model.parameters import PARAMETERS, in_units, parameter, usual
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, Quantity
@@ -38,7 +38,7 @@ QUANTITIES = {
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
-_EDGE = Look("", "#c8102e", "--", 2.0, "", 0.0, False)
+_EDGE = CurveStyle("", "#c8102e", "--", 2.0, "", 0.0, False)
 PRESENT: dict[str, Any] = {
     "linestyle": "",
     "marker": "*",
@@ -236,7 +236,7 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     if beyond.any():
         ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
     free = ~(data["hitting"].values > 0.0)
-    ring = Look("hits no stop", "0.5", "", 0.0, "o", 7.0, False)
+    ring = CurveStyle("hits no stop", "0.5", "", 0.0, "o", 7.0, False)
     if free.any():
         ax.plot(x[free], y[free], label=ring.label, **ring.marks())
     (present,) = _present_on_axes(data, [dim])
@@ -294,7 +294,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
     best = np.argwhere(data["pareto"].values.astype(bool))
     dots: list[Line2D] = []
     if len(best):
-        dot = Look(best_label(data), "black", "", 0.0, "o", 4.0, True)
+        dot = CurveStyle(best_label(data), "black", "", 0.0, "o", 4.0, True)
         style = dot.marks() | {"clip_on": False, "label": dot.label, "zorder": 5}
         dots = ax.plot(x[best[:, 1]], y[best[:, 0]], **style)
     stars: list[Line2D] = []

@@ -14,10 +14,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.figure_dimensions import columns_that_fit, size_of_new
 from vibroimpact.figures.finish import acceleration_text, finished, in_unit
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import DrawnMotion, named, shown
-from vibroimpact.figures.notebook import Drawing, Panel, Panels
+from vibroimpact.figures.motion_style import DrawnMotion, drawn_motions, named
+from vibroimpact.figures.notebook import NotebookFigure, Panel, Panels
 from vibroimpact.figures.record import contact_bands, gap_lines, mark_end, stops_legend, stops_of
-from vibroimpact.figures.style import CURVES, EDGE, Look, also_in_g, fit_x_axis, note_peak
+from vibroimpact.figures.style import CURVES, EDGE, CurveStyle, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
@@ -25,8 +25,8 @@ from vibroimpact.model.written_units import unit
 from vibroimpact.response.motion_phases import recorded
 
 _MARKS = {
-    "right": Look("hits the right stop", "#c8102e", "", 0.0, "^", 4.5, True),
-    "left": Look("hits the left stop", "#1f4fbf", "", 0.0, "v", 4.5, True),
+    "right": CurveStyle("hits the right stop", "#c8102e", "", 0.0, "^", 4.5, True),
+    "left": CurveStyle("hits the left stop", "#1f4fbf", "", 0.0, "v", 4.5, True),
 }
 """Marks of impacts on the right stop and on the left stop."""
 
@@ -77,7 +77,7 @@ def earthquake_page(
     stops = stops_of(motion)
     beside = columns_that_fit(2) > 1 or not spectra
     size = (7.2, 9.4) if beside else (7.2, 12.0)
-    figure = Drawing(figsize=size_of_new(size), layout="constrained")
+    figure = NotebookFigure(figsize=size_of_new(size), layout="constrained")
     heights = [1.0, 1.4, 1.4, 1.9, *([] if beside else [1.7])]
     grid = figure.add_gridspec(len(heights), 2, height_ratios=heights)
     new: dict[str, Any] = {"axes_class": Panel}
@@ -86,7 +86,7 @@ def earthquake_page(
     last = [figure.add_subplot(grid[3, 0] if spectra and beside else grid[3, :], **new)]
     if spectra:
         last.append(figure.add_subplot(grid[3, 1] if beside else grid[4, :], **new))
-    (curve,) = shown(named(motion, records=True))
+    (curve,) = drawn_motions(named(motion, records=True))
     _histories((base, *others), motion, curve, stops)
     _force(last[0], motion, curve)
     if spectra:

@@ -19,7 +19,7 @@ from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new, check_axes
 from vibroimpact.figures.resonance_panels import draws_eta
-from vibroimpact.figures.style import FREE, SWEEPS, Look, fit_x_axis, sweeps_of
+from vibroimpact.figures.style import FREE, SWEEPS, CurveStyle, fit_x_axis, sweeps_of
 from vibroimpact.model.names import literal
 from vibroimpact.model.public import public
 from vibroimpact.response.resonance import features
@@ -151,14 +151,14 @@ def family_legend(ax: Annotated[Axes, check_axes]) -> list[Artist]:
     return [*(line for line in rigs if line not in flight), *dashes, *flight]
 
 
-def _curve_style(label: str, i: int, colour: str | None) -> Look:
+def _curve_style(label: str, i: int, colour: str | None) -> CurveStyle:
     marker, colour = _MARKERS[i % len(_MARKERS)], colour or _COLOURS[i % len(_COLOURS)]
     # Filled and open in turn: neighbours differ although their markers are small.
-    return Look(label, colour, "-", 1.1, marker, 4.2 * _LARGER.get(marker, 1.0), i % 2 == 0)
+    return CurveStyle(label, colour, "-", 1.1, marker, 4.2 * _LARGER.get(marker, 1.0), i % 2 == 0)
 
 
 def _curves(
-    ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: Look, number: int
+    ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: CurveStyle, number: int
 ) -> None:
     """Draw both directions of one rig. At jumps, arrows replace the curve."""
     frequency = one["frequency"].values

@@ -17,10 +17,10 @@ from vibroimpact.figures.motion_style import (
     DrawnMotion,
     cycles_label,
     cycles_shown,
+    drawn_motions,
     force_unit,
     gap_lines,
     named,
-    shown,
 )
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import BANDS, EDGE, Band, panels
@@ -90,7 +90,7 @@ def time_history(
         If a dataset does not hold a motion with samples, or if the number of axes is wrong.
     """
     given_motions = named(motions)
-    curves = shown(given_motions, cycles_shown(given_motions, cycles, 3))
+    curves = drawn_motions(given_motions, cycles_shown(given_motions, cycles, 3))
     drawn, what, handles = panels_of(given_motions), "displacement, acceleration and velocity", []
     if all("transmitted_force" in curve.values for curve in curves):
         unit = force_unit(curves)

@@ -19,7 +19,7 @@ from matplotlib.offsetbox import OffsetBox, VPacker
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox, IdentityTransform
 
-from vibroimpact.figures.notebook import Drawing
+from vibroimpact.figures.notebook import NotebookFigure
 
 Place = Literal["above", "below"]
 
@@ -251,11 +251,11 @@ def apply_layout(*axes: Axes) -> None:
 
 @contextmanager
 def _as_saved(axes: Sequence[Axes]) -> Iterator[None]:
-    """Measure texts as `Drawing.savefig` writes them: without LaTeX.
+    """Measure texts as `NotebookFigure.savefig` writes them: without LaTeX.
 
     Characters that the font lacks are reported when the figure is saved.
     """
-    drawings = [figure for figure in _figures(axes) if isinstance(figure, Drawing)]
+    drawings = [figure for figure in _figures(axes) if isinstance(figure, NotebookFigure)]
     for figure in drawings:
         for text in figure.findobj(Text):
             text.set_usetex(False)

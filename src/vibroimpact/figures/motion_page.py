@@ -17,7 +17,13 @@ from vibroimpact.figures.finish import finished
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.lines import spectrum_lines
-from vibroimpact.figures.motion_style import DrawnMotion, cycles_label, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import (
+    DrawnMotion,
+    cycles_label,
+    cycles_shown,
+    drawn_motions,
+    named,
+)
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.portrait import SECTION, phase_portrait
 from vibroimpact.response.spectrum import fourier_spectrum
@@ -160,7 +166,7 @@ def _column(
     lines = {name: fourier_spectrum(motion, highest) for name, motion in long.items()}
     if lines:
         spectrum_lines(lines, axes[1], highest=highest)
-    curves = shown(motions, length)
+    curves = drawn_motions(motions, length)
     panels: list[Axes] = list(axes[2:])
     for ax, panel in zip(panels, panels_of(motions), strict=True):
         history_panel(ax, curves, panel)

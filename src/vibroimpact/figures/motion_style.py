@@ -17,7 +17,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.finish import in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import new_axes
-from vibroimpact.figures.style import MOTIONS, SWEEPS, Look, lay_out
+from vibroimpact.figures.style import MOTIONS, SWEEPS, CurveStyle, lay_out
 from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Harmonic, Record
 from vibroimpact.model.names import literal
@@ -40,7 +40,7 @@ MOST_CYCLES = 12
 class DrawnMotion(NamedTuple):
     """One motion as it is drawn: values over t/T, with the values before and after each event."""
 
-    look: Look
+    look: CurveStyle
     at: _Array
     """Time in forcing cycles, or in seconds for a motion through a `Record`."""
     values: dict[str, _Array]
@@ -135,7 +135,7 @@ def cycles_label(motions: Mapping[str, xr.Dataset]) -> str:
     return f"time in cycles of {length} $t/T$ (–)"
 
 
-def looks(names: list[str]) -> list[Look]:
+def looks(names: list[str]) -> list[CurveStyle]:
     """Return the style of each motion: that of a sweep if its name contains a direction."""
     spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
     styles = []
@@ -146,14 +146,14 @@ def looks(names: list[str]) -> list[Look]:
     return styles
 
 
-def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[DrawnMotion]:
+def drawn_motions(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[DrawnMotion]:
     """Return the curves of motions: the last cycles of a simulation, the first of others.
 
     A periodic motion is repeated to fill the cycles. If `cycles` is infinite, it is drawn once.
     Measured motions are shifted by whole cycles to the start of the others.
     """
     drawn = [
-        _shown(motion, look, cycles)
+        _drawn_motion(motion, look, cycles)
         for motion, look in zip(motions.values(), looks(list(motions)), strict=True)
     ]
     of_model = [c.at[0] for c, m in zip(drawn, motions.values(), strict=True) if not _seen(m)]
@@ -215,7 +215,7 @@ def name_lines(ax: Axes, curves: list[DrawnMotion]) -> None:
         add_legend(ax, handles, columns=3)
 
 
-def _measured(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
+def _measured(motion: xr.Dataset, look: CurveStyle, cycles: float) -> DrawnMotion:
     """Return the curves of a measured history. A cycle starts where the sine of the base has θ = 0.
 
     If the velocity was not measured, it is the smoothed derivative of the displacement.
@@ -243,7 +243,7 @@ def _measured(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
     return curve if math.isinf(cycles) else _clipped(curve, float(math.ceil(at[0])), last)
 
 
-def _shown(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
+def _drawn_motion(motion: xr.Dataset, look: CurveStyle, cycles: float) -> DrawnMotion:
     if _seen(motion):
         return _measured(motion, look, cycles)
     origin = recorded(motion, records=True)

@@ -29,7 +29,7 @@ EMBEDDED: dict[Any, Any] = {"pdf.fonttype": 42, "ps.fonttype": 42}
 """Embed fonts as TrueType. Journals refuse Type 3, which is the default of matplotlib."""
 
 
-class Drawing(Figure):
+class NotebookFigure(Figure):
     """A figure that a notebook displays. Its text is set by matplotlib, and never by LaTeX."""
 
     def __init__(self, *args: Any, **how: Any) -> None:
@@ -73,7 +73,7 @@ class Drawing(Figure):
 
 
 class Panel(Axes):
-    """Axes of a `Drawing`. A notebook displays the whole figure."""
+    """Axes of a `NotebookFigure`. A notebook displays the whole figure."""
 
     def _repr_png_(self) -> bytes | None:
         return _picture(self)
@@ -97,7 +97,7 @@ class Grid(np.ndarray[Any, np.dtype[Any]]):
 
 def new_axes(rows: int, columns: int, size: tuple[float, float], **how: Any) -> Grid:
     """Return the axes of a new figure. `how` is passed to `Figure.subplots`."""
-    figure = Drawing(figsize=size_of_new(size), layout="constrained")
+    figure = NotebookFigure(figsize=size_of_new(size), layout="constrained")
     made: NDArray[Any] = figure.subplots(
         rows, columns, squeeze=False, subplot_kw={"axes_class": Panel}, **how
     )
@@ -106,4 +106,4 @@ def new_axes(rows: int, columns: int, size: tuple[float, float], **how: Any) -> 
 
 def _picture(ax: Axes) -> bytes | None:
     figure = ax.get_figure(root=True)
-    return figure._repr_png_() if isinstance(figure, Drawing) else None
+    return figure._repr_png_() if isinstance(figure, NotebookFigure) else None

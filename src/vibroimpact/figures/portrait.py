@@ -9,7 +9,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.figures.finish import base_label, finished, in_unit
-from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
+from vibroimpact.figures.motion_style import (
+    axes_or_new,
+    drawn_motions,
+    gap_lines,
+    name_lines,
+    named,
+)
 
 _MOST_VECTORS = 200_000
 """Number of points from which a curve is an image of 600 dpi in SVG and PDF files. With fewer
@@ -48,7 +54,7 @@ def phase_portrait(
     """
     named_motions = named(motions, records=True)
     ax = axes_or_new(ax, (5.2, 4.4), title)
-    curves = shown(named_motions)
+    curves = drawn_motions(named_motions)
     for curve, motion in zip(curves, named_motions.values(), strict=True):
         u, v = in_unit(1e3) * curve.values["displacement"], curve.values["velocity"]
         alpha, many = 0.5 if curve.is_long else 1.0, len(u) > _MOST_VECTORS

@@ -27,7 +27,7 @@ from vibroimpact.figures.resonance_panels import (
     outputs,
     physical_curves,
 )
-from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, panels, sweeps_of
+from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, CurveStyle, panels, sweeps_of
 from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
@@ -191,7 +191,7 @@ def _panel(
     _draw_jumps(ax, frequency, drawn, jumps)
 
 
-def _loose_style(look: Look) -> dict[str, Any]:
+def _loose_style(look: CurveStyle) -> dict[str, Any]:
     """Return keywords of `Axes.plot` for crosses that can be distinguished even if they overlap."""
     style = look.cross(8.0 if look.filled else 12.0)
     return {**style, "markeredgewidth": 1.8, "label": f"{look.label}, not settled"}

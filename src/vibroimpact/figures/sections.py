@@ -21,7 +21,7 @@ from vibroimpact.figures.branches import MARKS, axis_unit, orbit_style, stable_p
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import SWEEPS, Look, fit_x_axis, panels
+from vibroimpact.figures.style import SWEEPS, CurveStyle, fit_x_axis, panels
 from vibroimpact.model.names import literal
 
 _Array = NDArray[np.float64]
@@ -38,7 +38,7 @@ _WAYS = {
     "up": SWEEPS["forward"]._replace(label="up"),
     "down": SWEEPS["backward"]._replace(label="down"),
 }
-_ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
+_ELSE = CurveStyle("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _OF_AN_OUTPUT = 1.4
@@ -169,7 +169,7 @@ def _sections(values: xr.DataArray, names: Sequence[str] | None) -> dict[str, xr
     return {name: values.sel(mass=name) for name in chosen(names, every, "mass", "names")}
 
 
-def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:
+def _points(ax: Axes, x: _Array, points: _Array, look: CurveStyle) -> None:
     """Draw the points of a periodic motion as marks, and the points of another motion as dots."""
     count = np.isfinite(points).sum(axis=1)
     for few in (True, False):
@@ -189,12 +189,12 @@ _FEW = 16
 """Largest number of points that are drawn as marks."""
 
 
-def _line(ax: Axes, x: _Array, y: _Array, look: Look, dots: bool = True) -> None:
+def _line(ax: Axes, x: _Array, y: _Array, look: CurveStyle, dots: bool = True) -> None:
     style = look.marks(0.5) | {"markeredgewidth": 0.5} if dots else _thin(look)
     ax.plot(x, y, **style)
 
 
-def _thin(look: Look) -> dict[str, Any]:
+def _thin(look: CurveStyle) -> dict[str, Any]:
     return look.line | {"linewidth": 0.8 * look.width}
 
 

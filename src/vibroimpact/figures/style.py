@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
 from vibroimpact.figures.figure_dimensions import columns_that_fit
-from vibroimpact.figures.notebook import EMBEDDED, Drawing, Panels, new_axes
+from vibroimpact.figures.notebook import EMBEDDED, NotebookFigure, Panels, new_axes
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.argument_types import File, Positive
 from vibroimpact.model.public import public
@@ -31,7 +31,7 @@ _SCREEN, _PRINT, _MOST_DPI = 200.0, 600.0, 2400.0
 """Pixels per inch."""
 
 
-class Look(NamedTuple):
+class CurveStyle(NamedTuple):
     """Style of one kind of curve. Markers and dashes distinguish it even without colour."""
 
     label: str
@@ -75,23 +75,23 @@ class Look(NamedTuple):
 
 
 SWEEPS = {
-    "forward": Look("forward sweep", "#c8102e", "-", 1.6, "o", 3.6, True),
-    "backward": Look("backward sweep", "#1f4fbf", "--", 1.3, "s", 5.6, False),
+    "forward": CurveStyle("forward sweep", "#c8102e", "-", 1.6, "o", 3.6, True),
+    "backward": CurveStyle("backward sweep", "#1f4fbf", "--", 1.3, "s", 5.6, False),
 }
 """Styles of sweeps, as in the paper: forward red, backward blue. A dot is visible inside an open
 square."""
 
 
-def sweeps_of(data: xr.Dataset | xr.DataArray) -> list[tuple[str, Look]]:
+def sweeps_of(data: xr.Dataset | xr.DataArray) -> list[tuple[str, CurveStyle]]:
     """Return the directions of the sweeps in a dataset, with their styles."""
     return [(name, look) for name, look in SWEEPS.items() if name in data["direction"].values]
 
 
 MOTIONS = (
-    Look("motion", "black", "-", 1.2, "o", 3.6, True),
-    Look("motion", "#c05a00", "--", 1.2, "^", 4.4, False),
-    Look("motion", "#00795c", "-.", 1.2, "D", 3.8, True),
-    Look("motion", "#7a3e9d", "--", 1.2, "v", 4.4, True),
+    CurveStyle("motion", "black", "-", 1.2, "o", 3.6, True),
+    CurveStyle("motion", "#c05a00", "--", 1.2, "^", 4.4, False),
+    CurveStyle("motion", "#00795c", "-.", 1.2, "D", 3.8, True),
+    CurveStyle("motion", "#7a3e9d", "--", 1.2, "v", 4.4, True),
 )
 """Styles of motions whose names contain no sweep direction, in turn."""
 
@@ -128,7 +128,7 @@ BUMPERS = {"B1": "o", "B2": "s", "B3": "^", "B4": "D"}
 """Symbols of the laboratory bumpers, as in the paper's Fig. 21."""
 
 CURVES = tuple(
-    Look("", colour, dashes, 1.4, marker, 4.0, False)
+    CurveStyle("", colour, dashes, 1.4, marker, 4.0, False)
     for colour, dashes, marker in (
         ("black", "-", "o"),
         ("#c8102e", "--", "s"),
@@ -139,7 +139,7 @@ CURVES = tuple(
 )
 """Styles of spectra and of other curves, in turn."""
 
-FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
+FREE = CurveStyle("free flight", "black", "-.", 0.9, "", 0.0, False)
 
 SHADE = "0.9"
 """Light grey of shaded ranges."""
@@ -361,7 +361,7 @@ def save_figure(drawn: Any, path: File, *, dpi: Positive | None = None) -> Path:
     if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
         raise InputError(f"figure: {drawn!r} is not a figure; pass a Figure or Axes of matplotlib")
     if dpi is None:
-        on_screen = kind == "png" and not (isinstance(figure, Drawing) and figure.is_print)
+        on_screen = kind == "png" and not (isinstance(figure, NotebookFigure) and figure.is_print)
         dpi = _SCREEN if on_screen else _PRINT
     elif not 1.0 <= dpi <= _MOST_DPI:
         raise InputError(f"dpi: {dpi!r}; pass a number from 1 to {_MOST_DPI:g}")

@@ -59,7 +59,7 @@ class Way(NamedTuple):
     """The holds before which it jumps, in order, and whether upwards."""
 
 
-class Followed(NamedTuple):
+class DirectionResponse(NamedTuple):
     """What a rig does in one direction of a test."""
 
     rows: Array
@@ -116,7 +116,7 @@ def sizes(rows: Array) -> Array:
         return np.nan_to_num(np.log(np.stack([swing, force], axis=-1)), nan=0.0, neginf=-50.0)
 
 
-def follow(rig: SteppedRig, way: Way) -> Followed:
+def follow(rig: SteppedRig, way: Way) -> DirectionResponse:
     """Follow one direction of a test, each measured jump matched by one of the rig."""
     rows, states = rig.sweep(way.frequency)
     off = np.zeros(len(way.jumps))
@@ -136,7 +136,7 @@ def follow(rig: SteppedRig, way: Way) -> Followed:
         rows = taken
     settled = HoldRows(rows).settled
     other = _untold(rig, way, swept_rows, states, size, places, settled & ~clamped)
-    return Followed(rows, settled, off, clamped, other)
+    return DirectionResponse(rows, settled, off, clamped, other)
 
 
 def _untold(

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.branch_response import Followed, SteppedRig, Way, follow
+from vibroimpact.identification.branch_response import DirectionResponse, SteppedRig, Way, follow
 from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.sensor_channel import sensed
 from vibroimpact.measurements.features import measured_features, noise_of
@@ -174,13 +174,13 @@ class CurveTest:
             [self.ways[w].frequency[h] for w, h in zip(*self.points[:2], strict=True)], dtype=float
         )
 
-    def followed(self, rig: Rig) -> list[Followed]:
+    def followed(self, rig: Rig) -> list[DirectionResponse]:
         """What a rig does in each direction."""
         stepped = SteppedRig(rig)
         return [follow(stepped, way) for way in self.ways]
 
     def model(
-        self, rig: Rig, sensors: dict[str, float], followed: list[Followed]
+        self, rig: Rig, sensors: dict[str, float], followed: list[DirectionResponse]
     ) -> tuple[Array, NDArray[np.bool_]]:
         """What the rig's sensors would show at each point, and whether it settled there."""
         values = np.empty(len(self.points.value))
@@ -201,7 +201,7 @@ class CurveTest:
                     values[here] = other
         return values, settled
 
-    def _others(self, rig: Rig, sweep: Followed) -> list[tuple[int, Array]]:
+    def _others(self, rig: Rig, sweep: DirectionResponse) -> list[tuple[int, Array]]:
         """What else the rig may do at a hold: on another branch, or as the mirror image.
 
         Which one of two mirrored motions a mass settles on hangs on the last digits of the rig.

@@ -31,7 +31,7 @@ _COLUMNS = {
 }
 
 
-class Moved(NamedTuple):
+class SampledMotion(NamedTuple):
     """A motion at some times."""
 
     values: dict[str, Array]
@@ -52,7 +52,7 @@ class Joined(NamedTuple):
     """How far it goes to the right and to the left (m)."""
 
 
-def under_sine(rig: Rig, start: State | Array, time: Array) -> Moved | None:
+def under_sine(rig: Rig, start: State | Array, time: Array) -> SampledMotion | None:
     """The motion under a sine from a state at the first of the times; None if it was given up.
 
     The phase is that at the first time. Displacement and velocity between samples are cubics with
@@ -80,7 +80,7 @@ def under_sine(rig: Rig, start: State | Array, time: Array) -> Moved | None:
     return _between(out, seconds, wanted, base)
 
 
-def under_record(rig: Rig, start: State, time: Array) -> Moved | None:
+def under_record(rig: Rig, start: State, time: Array) -> SampledMotion | None:
     """The motion under a record from a state at its beginning; None if it was given up.
 
     The times are those since the beginning of the record.
@@ -103,7 +103,7 @@ def under_record(rig: Rig, start: State, time: Array) -> Moved | None:
     return _between(out, grid, time, record.at(grid))
 
 
-def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
+def _between(out: Array, grid: Array, time: Array, base: Array) -> SampledMotion:
     """Values at times between the samples of a motion."""
     step = np.diff(grid)
     keep = np.concatenate([[True], step > 1e-12 * max(grid[-1], 1e-300)])
@@ -113,7 +113,9 @@ def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
     reach = float(u.max()), -float(u.min())
     if len(grid) < 2:
         start = float(out[0, 0]), float(out[1, 0])
-        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, start, reach)
+        return SampledMotion(
+            {n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, start, reach
+        )
     h = grid[i + 1] - grid[i]
     s = (time - grid[i]) / h
     rows = {name: out[column] for name, column in _COLUMNS.items()}
@@ -131,4 +133,4 @@ def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
             + s**2 * (s - 1.0) * h * k[i + 1]
         )
     last = (float(values["displacement"][-1]), float(values["velocity"][-1]))
-    return Moved(values, last, reach)
+    return SampledMotion(values, last, reach)

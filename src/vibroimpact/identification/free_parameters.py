@@ -39,7 +39,7 @@ _ABOVE_ZERO = 1e-9
 """Lower bound of what must be greater than zero, in sizes."""
 
 
-class Free(NamedTuple):
+class FitNumber(NamedTuple):
     """One number of a fit."""
 
     name: str
@@ -77,7 +77,7 @@ def frees(
     each: Any,
     priors: Any,
     swings: Mapping[str, float] | None = None,
-) -> list[Free]:
+) -> list[FitNumber]:
     """Read what is free.
 
     Parameters
@@ -149,7 +149,7 @@ def _name(name: Any, known: Iterable[str], field: str = "free") -> str:
     raise InputError(f"{field}: {shown(name)} is unknown; {use}")
 
 
-def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: float) -> Free:
+def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: float) -> FitNumber:
     field = f"free[{name!r}]"
     least: float | None = None
     most: float | None = None
@@ -211,7 +211,7 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
     if above is not None:
         low = max(low, min(_ABOVE_ZERO * scale, start))
     known = None if prior is None else _prior(name, prior, quantity)
-    return Free(name, test, quantity, start, low, high, first, last, scale, known)
+    return FitNumber(name, test, quantity, start, low, high, first, last, scale, known)
 
 
 def _bounded(value: Any, field: str) -> dict[str, Any]:
@@ -254,7 +254,7 @@ def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
 
 
 def written(
-    free_list: Sequence[Free],
+    free_list: Sequence[FitNumber],
     values: Array | Sequence[float],
     rig: Rig,
     test: str,

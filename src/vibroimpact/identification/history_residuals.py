@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.identification.branch_response import SteppedRig
-from vibroimpact.identification.exact_motion import Joined, Moved, under_record, under_sine
+from vibroimpact.identification.exact_motion import Joined, SampledMotion, under_record, under_sine
 from vibroimpact.identification.free_parameters import SENSORS
 from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.sensor_channel import (
@@ -304,7 +304,9 @@ class HistoryTest:
                                                strict=True)]  # fmt: skip
         return Joined(values, np.array(gaps), reach)
 
-    def _from(self, rig: Rig, state: State, phase: float | None, time: Array) -> Moved | None:
+    def _from(
+        self, rig: Rig, state: State, phase: float | None, time: Array
+    ) -> SampledMotion | None:
         begin = float(time[0])
         if isinstance(self.shaking, Record):
             step = self.shaking.step
@@ -322,7 +324,7 @@ class HistoryTest:
         start: tuple[float, float],
         phase: float | None,
         time: Array,
-    ) -> Moved | None:
+    ) -> SampledMotion | None:
         """The steady motion that the measured state leads to."""
         shaken = rig.sine
         at = shaken.phase if phase is None else phase % (2.0 * math.pi)

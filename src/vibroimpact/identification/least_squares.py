@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.free_parameters import Free, written
+from vibroimpact.identification.free_parameters import FitNumber, written
 from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.model.rig import Rig
 
@@ -89,7 +89,7 @@ class Test(Protocol):
         """Each point beside what the rig has there."""
 
 
-class Values(NamedTuple):
+class ResidualValues(NamedTuple):
     """Residuals at one place."""
 
     residuals: Array
@@ -115,7 +115,7 @@ class Problem:
     def __init__(
         self,
         tests: Sequence[Test],
-        free: Sequence[Free],
+        free: Sequence[FitNumber],
         ties: Mapping[str, str],
         sigma: Sequence[float],
         tail: float,
@@ -195,7 +195,7 @@ class Problem:
         unknowns: Array = x[own] * self.scale[own]
         return unknowns
 
-    def values(self, x: Array) -> Values:
+    def values(self, x: Array) -> ResidualValues:
         """Residuals of all tests, then those of the priors."""
         self.evaluations += 1
         parts, smooth = [], []
@@ -220,7 +220,7 @@ class Problem:
         residuals = np.concatenate([*parts, prior])
         if self.weights is not None:
             residuals = residuals * self.weights
-        return Values(residuals, np.concatenate([*smooth, np.ones(len(prior), dtype=bool)]))
+        return ResidualValues(residuals, np.concatenate([*smooth, np.ones(len(prior), dtype=bool)]))
 
     def cost(self, x: Array) -> float:
         """Half the sum of squares."""
@@ -231,7 +231,7 @@ class Problem:
         x: Array,
         *,
         fine: bool = False,
-        at: Values | None = None,
+        at: ResidualValues | None = None,
         only: Flags | None = None,
     ) -> Array:
         """Derivatives of the residuals by differences of settled motions.
@@ -267,7 +267,7 @@ class Problem:
             return groups
         return [kept for group in groups if (kept := [one for one in group if only[one[0]]])]
 
-    def _slope(self, x: Array, columns: list[int], here: Values, *, fine: bool) -> Array:
+    def _slope(self, x: Array, columns: list[int], here: ResidualValues, *, fine: bool) -> Array:
         """Columns of the derivatives, on the side without a break where there is one."""
         size = _FINE if fine else _STEP
         shares = self._shares
@@ -322,14 +322,14 @@ def minimized(
         Whether derivatives are central, and scale the unknowns.
     """
     free = np.ones(len(x), dtype=bool) if among is None else among
-    seen: dict[bytes, Values] = {}
+    seen: dict[bytes, ResidualValues] = {}
 
     def whole(y: Array) -> Array:
         full = x.copy()
         full[free] = y
         return full
 
-    def values(y: Array) -> Values:
+    def values(y: Array) -> ResidualValues:
         key = y.tobytes()
         if key not in seen:
             seen.clear()  # the last one is all that a derivative needs

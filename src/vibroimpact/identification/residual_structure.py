@@ -25,7 +25,7 @@ _RUN = 5
 """Neighbouring points over which residuals are averaged, to say where they are large."""
 
 
-class Row(NamedTuple):
+class ResidualSeries(NamedTuple):
     """Residuals of one quantity in one direction, in the order of their places."""
 
     variable: str
@@ -51,7 +51,11 @@ class Structure(NamedTuple):
 
 
 def structure(
-    rows: list[Row], size: float, noise: float | None, freedom: float, noise_freedom: float
+    rows: list[ResidualSeries],
+    size: float,
+    noise: float | None,
+    freedom: float,
+    noise_freedom: float,
 ) -> Structure:
     """Judge residuals.
 
@@ -100,7 +104,7 @@ def _neighbours(one: Array, other: Array) -> list[Array]:
     return [weight * one[:-lag] * other[lag:] for lag, weight in _LAGS if len(one) > lag]
 
 
-def _across(one: Row, other: Row) -> list[Array]:
+def _across(one: ResidualSeries, other: ResidualSeries) -> list[Array]:
     """Products of residuals of both directions, at the same places and at neighbours."""
     _, here, there = np.intersect1d(one.place, other.place, return_indices=True)
     a, b = one.modelled[here], other.modelled[there]
@@ -110,7 +114,7 @@ def _across(one: Row, other: Row) -> list[Array]:
     return [x * y, *_neighbours(x, y), *_neighbours(y, x)]
 
 
-def _worst(rows: list[Row]) -> tuple[float, float]:
+def _worst(rows: list[ResidualSeries]) -> tuple[float, float]:
     """Where neighbouring residuals are largest together."""
     worst, largest = (math.nan, math.nan), -1.0
     for row in rows:

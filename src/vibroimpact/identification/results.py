@@ -21,7 +21,7 @@ from vibroimpact.identification.global_search import SearchResult
 from vibroimpact.identification.least_squares import Array, Problem
 from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.profile_likelihood import Profile
-from vibroimpact.identification.residual_structure import TOLD, Row, Structure, structure
+from vibroimpact.identification.residual_structure import TOLD, ResidualSeries, Structure, structure
 from vibroimpact.identification.uncertainty import Spread
 from vibroimpact.identification.untouched_stops import Untouched
 from vibroimpact.model import Oscillator
@@ -191,7 +191,7 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     return judged
 
 
-def _rows(points: TestPoints, weights: dict[str, float]) -> list[Row]:
+def _rows(points: TestPoints, weights: dict[str, float]) -> list[ResidualSeries]:
     """Residuals of each direction and quantity in the order of their places."""
     rows = []
     keys = list(zip(points.direction, points.variable, strict=True))
@@ -199,5 +199,5 @@ def _rows(points: TestPoints, weights: dict[str, float]) -> list[Row]:
         here = np.flatnonzero([k == key for k in keys])
         here = here[np.argsort(points.place[here], kind="stable")]
         residual = points.residual[here] / weights[key[1]]
-        rows.append(Row(key[1], points.place[here], residual, points.modelled[here]))
+        rows.append(ResidualSeries(key[1], points.place[here], residual, points.modelled[here]))
     return rows

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vibroimpact.identification.free_parameters import SENSORS, Free, frees
+from vibroimpact.identification.free_parameters import SENSORS, FitNumber, frees
 from vibroimpact.identification.global_search import local
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Array, Problem
@@ -69,7 +69,7 @@ def sensor_doubts(problem: Problem, x: Array, number: int) -> list[str]:
     ]
 
 
-def _offsets(test: HistoryTest, known: set[str]) -> list[Free]:
+def _offsets(test: HistoryTest, known: set[str]) -> list[FitNumber]:
     """The offsets of a test's channels that are not free yet."""
     names = [name for name in SENSORS if name.endswith("_offset") and name not in known
              and name.removesuffix("_offset") in test.names]  # fmt: skip

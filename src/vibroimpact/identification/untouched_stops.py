@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.free_parameters import SENSORS, Free
+from vibroimpact.identification.free_parameters import SENSORS, FitNumber
 from vibroimpact.identification.least_squares import Array, Problem, Test
 from vibroimpact.model.parameters import parameter
 
@@ -56,7 +56,7 @@ def _idle(problem: Problem, x: Array, number: int) -> dict[str, float]:
     return gap_shares
 
 
-def _moved(problem: Problem, x: Array, number: int, one: Free, test: Test) -> set[str]:
+def _moved(problem: Problem, x: Array, number: int, one: FitNumber, test: Test) -> set[str]:
     """The sides whose stop depends on a parameter; none if anything else does."""
     if one.name in SENSORS:
         return set()

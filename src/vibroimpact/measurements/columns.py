@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Column(NamedTuple):
+class ChannelColumn(NamedTuple):
     """A channel of a file."""
 
     name: str
@@ -36,7 +36,7 @@ class Columns(NamedTuple):
     """All channels of a file, or of a group in a file."""
 
     path: str
-    columns: tuple[Column, ...]
+    columns: tuple[ChannelColumn, ...]
     said: Mapping[str, str]
     """Entries next to the numbers, such as ``amplitude``, as they are written in the file."""
     lines: NDArray[np.int64] | None = None
@@ -49,7 +49,7 @@ class Columns(NamedTuple):
         return f"row {i + 1}" if self.lines is None else f"line {self.lines[i]}"
 
 
-def of_one_length(path: str, columns: list[Column]) -> tuple[Column, ...]:
+def of_one_length(path: str, columns: list[ChannelColumn]) -> tuple[ChannelColumn, ...]:
     """Return the channels with the same length. Shorter channels are padded with NaN."""
     longest = max((len(column.values) for column in columns), default=0)
     padded = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.scaling import agreed
 from vibroimpact.records.lvm import recognises, segments
 from vibroimpact.tables.file import File
@@ -22,20 +22,20 @@ def read(file: File) -> list[Columns] | None:
     if not recognises(file):
         return None
     file_segments = segments(file)
-    tables: list[tuple[str, list[Column]]] = []
+    tables: list[tuple[str, list[ChannelColumn]]] = []
     for number, signals in enumerate(file_segments, 1):
         begun = len(tables)
         for signal in signals:
             bare, own = parted(signal.name)
             unit, doubt = agreed(own, signal.label)
-            column = Column(bare, unit, signal.values, doubt=doubt)
+            column = ChannelColumn(bare, unit, signal.values, doubt=doubt)
             for _, columns in tables[begun:]:
                 if np.array_equal(columns[0].values, signal.times):
                     columns.append(column)
                     break
             else:
                 unit = {"time": "s", "frequency": "Hz"}.get(signal.axis)
-                axis = Column(signal.axis, unit, signal.times)
+                axis = ChannelColumn(signal.axis, unit, signal.times)
                 tables.append((str(number), [axis, column]))
     said = [{"group": name} if len(tables) > 1 else {} for name, _ in tables]
     return [

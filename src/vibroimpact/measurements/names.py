@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.errors import InputError
-from vibroimpact.measurements.columns import Array, Column
+from vibroimpact.measurements.columns import Array, ChannelColumn
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -217,7 +217,7 @@ def _of_letters(words: list[str], unit: str | None) -> str | None:
 
 
 def in_si(
-    column: Column, column_meaning: Meaning, said: str | None, path: str
+    column: ChannelColumn, column_meaning: Meaning, said: str | None, path: str
 ) -> tuple[Array, str | None]:
     """Return the values of a column in SI units, and what is noted of its unit.
 
@@ -264,7 +264,7 @@ def in_si(
     return values, "; ".join(notes) or None
 
 
-def missing_unit(column: Column, column_meaning: Meaning, said: str | None) -> str | None:
+def missing_unit(column: ChannelColumn, column_meaning: Meaning, said: str | None) -> str | None:
     """Return a usual unit of a column if its unit is needed and not stated, or None.
 
     Times are in s, frequencies in Hz and ratios have no unit, if none is stated.

@@ -15,7 +15,7 @@ from vibroimpact.datasets.files import load
 from vibroimpact.errors import InputError, printable, shown, warn_of_input
 from vibroimpact.measurements import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurements.column_meanings import converted, known_columns, missing_columns
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.curves import curves
 from vibroimpact.measurements.dropouts import doubt_marks
 from vibroimpact.measurements.file_entries import shaking
@@ -243,7 +243,7 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
 
 def _runs(table: Columns) -> list[Columns]:
     """Split a table whose columns are called ``Run 1: Time`` and so on into its runs."""
-    groups: dict[str, list[Column]] = {}
+    groups: dict[str, list[ChannelColumn]] = {}
     for column in table.columns:
         run, mark, name = column.name.partition(":")
         groups.setdefault(run.strip() if mark else "", []).append(

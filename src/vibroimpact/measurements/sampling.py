@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from vibroimpact.errors import InputError
-from vibroimpact.measurements.columns import Column, Columns, of_one_length
+from vibroimpact.measurements.columns import ChannelColumn, Columns, of_one_length
 from vibroimpact.measurements.names import meaning
 from vibroimpact.model.quantities import FREQUENCY, TIME
 from vibroimpact.model.units import to_si
@@ -29,7 +29,7 @@ def timed(table: Columns) -> list[Columns]:
         return [table._replace(columns=of_one_length(table.path, list(table.columns)))]
     entry = _stated(table.said)
     common = entry[1] if entry else None
-    groups: dict[tuple[float | None, float], list[Column]] = {}
+    groups: dict[tuple[float | None, float], list[ChannelColumn]] = {}
     for column in table.columns:
         words = column.values.dtype.kind == "U"
         step = column.step if column.step is not None or words else common
@@ -39,7 +39,7 @@ def timed(table: Columns) -> list[Columns]:
         part = table._replace(columns=of_one_length(table.path, columns))
         if step is not None:
             count = max(len(column.values) for column in columns)
-            time = Column("time", "s", start + step * np.arange(count))
+            time = ChannelColumn("time", "s", start + step * np.arange(count))
             part = part._replace(columns=(time, *part.columns))
             own = any(column.step is not None for column in columns)
             if entry and not own:

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 from vibroimpact.errors import shown
 from vibroimpact.measurements.channel_attributes import Kind, kind_of, known, one, words_in
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.names import AXES, QUANTITIES, alike, meaning
 from vibroimpact.measurements.sampling import is_rate, is_sampling
@@ -28,7 +28,7 @@ def agreed(*units: str | None) -> tuple[str | None, str]:
     return (stated[0] if stated else None), ""
 
 
-def doubtful(column: Column, doubt: str) -> Column:
+def doubtful(column: ChannelColumn, doubt: str) -> ChannelColumn:
     """Return a column with one more doubt."""
     parts = dict.fromkeys(part for part in (*column.doubt.split("; "), doubt) if part)
     return column._replace(doubt="; ".join(parts))
@@ -69,7 +69,7 @@ def completed(table: Columns) -> Columns:
     )
 
 
-def _listed(columns: list[Column]) -> list[Column]:
+def _listed(columns: list[ChannelColumn]) -> list[ChannelColumn]:
     """Add a doubt to columns if another column lists units or scales without naming channels.
 
     A list with the length of the channels, such as a gain over frequency, is a channel.
@@ -93,7 +93,9 @@ def _listed(columns: list[Column]) -> list[Column]:
     return with_doubts
 
 
-def _assigned(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
+def _assigned(
+    columns: list[ChannelColumn], kind: Kind, name: str, about: str, text: str
+) -> list[ChannelColumn]:
     """Assign a stated unit, scale or offset to the columns that it refers to."""
     free = [c for c in columns if is_channel(c) and ("unit" not in kind or c.unit is None)]
     meant = _named(columns, about)
@@ -123,7 +125,7 @@ def doubted(kind: Kind, text: str) -> bool:
     return bool(doubt) or (read is not None and read not in (1.0 if kind == "scale" else 0.0,))
 
 
-def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
+def _with(column: ChannelColumn, kind: Kind, name: str, text: str) -> ChannelColumn:
     """Return a column with a stated unit, scale or offset."""
     read, doubt = one(kind, text, text)
     if doubt:
@@ -139,7 +141,7 @@ def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
     return column._replace(scale=read) if kind == "scale" else column._replace(offset=read)
 
 
-def _applied(column: Column) -> Column:
+def _applied(column: ChannelColumn) -> ChannelColumn:
     """Return a column with its scale and offset applied to its values."""
     scale = 1.0 if column.scale is None else column.scale
     offset = column.offset or 0.0
@@ -153,11 +155,11 @@ def _applied(column: Column) -> Column:
     return column._replace(values=values, scale=None, offset=None)
 
 
-def _in(column: Column, some: Iterable[Column]) -> bool:
+def _in(column: ChannelColumn, some: Iterable[ChannelColumn]) -> bool:
     return any(column is other for other in some)
 
 
-def _named(columns: list[Column], about: str) -> list[Column]:
+def _named(columns: list[ChannelColumn], about: str) -> list[ChannelColumn]:
     return [column for column in columns if about and _plain(column.name) == about]
 
 
@@ -165,16 +167,16 @@ def _plain(name: str) -> str:
     return "".join(words_in(name))
 
 
-def _quantity(column: Column) -> object:
+def _quantity(column: ChannelColumn) -> object:
     column_meaning = meaning(column.name)
     return QUANTITIES.get(column_meaning.variable) if column_meaning else None
 
 
-def _is_time(column: Column) -> bool:
+def _is_time(column: ChannelColumn) -> bool:
     return _quantity(column) is AXES["time"]
 
 
-def is_channel(column: Column) -> bool:
+def is_channel(column: ChannelColumn) -> bool:
     """Return whether a column holds numbers other than a time, a frequency or a direction."""
     column_meaning = meaning(column.name)
     other = column_meaning is not None and column_meaning.variable in (*AXES, "direction")

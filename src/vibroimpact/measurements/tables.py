@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.channel_attributes import Stated, as_text, kind_of, known
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.scaling import agreed, completed, doubtful
 from vibroimpact.tables.limits import few_columns
@@ -47,7 +47,7 @@ def tables(
 
 def _together(path: Path, tables: list[Columns]) -> Columns:
     """Join groups with one channel to one table. Each channel gets the name of its group."""
-    channels: list[Column] = []
+    channels: list[ChannelColumn] = []
     beside: dict[str, str] = {}
     for table in tables:
         (column,) = table.columns
@@ -93,7 +93,7 @@ def columns(
             beside |= [key_and_text(name, with_unit(as_text(values[()]), unit))]
         else:
             vectors[name] = about.get(name, Stated()).holes(values)
-    all_columns: list[Column] = []
+    all_columns: list[ChannelColumn] = []
     used: set[str] = set()
     for name, values in vectors.items():
         if values.ndim == 1 or values.dtype.kind in "Uc":
@@ -118,10 +118,12 @@ def columns(
     return completed(Columns(str(path), tuple(all_columns), beside))
 
 
-def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) -> Column:
+def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) -> ChannelColumn:
     """Return a channel with the statements about it."""
     unit, doubt = agreed(*units, own.unit)
-    column = Column(name, unit, values, own.step, own.start, own.scale, own.offset, own.doubt)
+    column = ChannelColumn(
+        name, unit, values, own.step, own.start, own.scale, own.offset, own.doubt
+    )
     return doubtful(column, doubt)
 
 

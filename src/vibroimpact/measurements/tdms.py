@@ -13,7 +13,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.channel_attributes import kind_of, stated
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.tables import damaged, described, key_and_text, library
 from vibroimpact.tables.limits import within
 from vibroimpact.tables.units import parted
@@ -93,7 +93,7 @@ def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
     channels = group.channels()
     begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
     first = min((np.datetime64(at) for at in begun), default=None)
-    columns: list[Column] = []
+    columns: list[ChannelColumn] = []
     beside = dict(key_and_text(str(key), str(value)) for key, value in group.properties.items())
     for channel in channels:
         bare, unit = parted(channel.name)

@@ -11,7 +11,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.channel_attributes import kind_of
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.names import QUANTITIES, meaning
 from vibroimpact.measurements.scaling import agreed, doubtful
@@ -53,7 +53,7 @@ def read(file: File) -> list[Columns]:
         of_name = unit_of(column.name)
         below = None if own or column.units.unit == of_name else column.units.unit
         unit, doubt = agreed(own, below, column.units.other)
-        columns.append(Column(bare, unit, column.values, doubt=doubt))
+        columns.append(ChannelColumn(bare, unit, column.values, doubt=doubt))
     columns, said = _in_stated_unit(table, columns, said)
     channels = Columns(file.path, tuple(columns), said, table.lines + 1, table.notes)
     return [_sampled(table, channels)]
@@ -110,8 +110,8 @@ def _pointed(text: str, decimal: str) -> str:
 
 
 def _in_stated_unit(
-    table: Table, columns: list[Column], said: dict[str, str]
-) -> tuple[list[Column], dict[str, str]]:
+    table: Table, columns: list[ChannelColumn], said: dict[str, str]
+) -> tuple[list[ChannelColumn], dict[str, str]]:
     """Give channels without a unit the unit of acceleration that a line states of the values."""
     stated = [unit for unit in (*table.statements.units, *table.statements.hints)
               if is_acceleration(unit)]  # fmt: skip
@@ -132,7 +132,7 @@ def _in_stated_unit(
     return with_units, {key: text for key, text in said.items() if key not in used}
 
 
-def _in_unit(column: Column, stated: list[str]) -> Column:
+def _in_unit(column: ChannelColumn, stated: list[str]) -> ChannelColumn:
     """Return a column without a unit, with the stated one if it may hold accelerations."""
     if not _may_accelerate(column, stated[0]):
         return column
@@ -140,7 +140,7 @@ def _in_unit(column: Column, stated: list[str]) -> Column:
     return column._replace(unit=unit, doubt=doubt)
 
 
-def _compared(column: Column, stated: tuple[str, ...]) -> Column:
+def _compared(column: ChannelColumn, stated: tuple[str, ...]) -> ChannelColumn:
     """Return a column with a unit, and with a doubt if another one is stated of accelerations."""
     of_acceleration = _quantity(column.name, column.unit) is ACCELERATION
     _, doubt = agreed(column.unit, *filter(is_acceleration, stated))
@@ -152,7 +152,7 @@ def _quantity(name: str, unit: str | None) -> object:
     return QUANTITIES.get(known.variable) if known else None
 
 
-def _may_accelerate(column: Column, unit: str) -> bool:
+def _may_accelerate(column: ChannelColumn, unit: str) -> bool:
     """Return whether a column without a unit may hold accelerations in this unit."""
     known = meaning(column.name, unit)
     quantity = QUANTITIES.get(known.variable) if known else ACCELERATION
@@ -194,7 +194,7 @@ def _sampled(table: Table, channels: Columns) -> Columns:
         return channels._replace(columns=columns)
     if at is not None and step.step is not None and "stated step" in step.note:
         times = channels.columns[at].values[0] / IN_A_SECOND[unit or "s"]
-        even = Column("time", "s", times + step.step * np.arange(rows))
+        even = ChannelColumn("time", "s", times + step.step * np.arange(rows))
         columns = tuple(even if i == at else one for i, one in enumerate(channels.columns))
         return channels._replace(columns=columns, notes=(*channels.notes, step.note))
     return channels

@@ -11,7 +11,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.channel_attributes import known
-from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.columns import ChannelColumn, Columns
 from vibroimpact.measurements.names import meaning
 from vibroimpact.measurements.scaling import agreed
 from vibroimpact.measurements.tables import damaged, library
@@ -42,7 +42,7 @@ def read(path: Path) -> list[Columns]:
         raise damaged(path, "universal (UFF)", error) from None
     sets = contents if isinstance(contents, list) else [contents]
     factors: Mapping[str, Any] = next((one for one in sets if one.get("type") == 164), {})
-    tables: list[tuple[Any, list[Column]]] = []
+    tables: list[tuple[Any, list[ChannelColumn]]] = []
     for one in (one for one in sets if one.get("type") == 58):
         x, y = np.asarray(one["x"], dtype=float), np.asarray(one["data"])
         if len(y) != int(one.get("num_pts") or len(y)):
@@ -53,7 +53,9 @@ def read(path: Path) -> list[Columns]:
         if unit is None and factors and kind in _FACTORS:
             factor = float(factors.get(_FACTORS[kind]) or 1.0)
             y, unit = y / factor, _SI[kind]
-        column = Column(bare, unit, y if np.iscomplexobj(y) else y.astype(float), doubt=doubt)
+        column = ChannelColumn(
+            bare, unit, y if np.iscomplexobj(y) else y.astype(float), doubt=doubt
+        )
         axis = _axis(one, x)
         for other, columns in tables:
             if len(other.values) == len(x) and other.unit == axis.unit:
@@ -68,13 +70,13 @@ def read(path: Path) -> list[Columns]:
     return [Columns(str(path), tuple(columns), {}) for _, columns in tables]
 
 
-def _axis(one: Mapping[str, Any], x: Any) -> Column:
+def _axis(one: Mapping[str, Any], x: Any) -> ChannelColumn:
     """Return the abscissa of a function, in the stated unit."""
     stated = known(one.get("abscissa_axis_units_lab"))
     spectral = int(one.get("abscissa_spec_data_type", 17)) == _FREQUENCY
     usual = "Hz" if spectral else "s"
     unit = spelled(stated) if stated else usual
-    return Column("frequency" if spectral or unit == "rpm" else "time", unit, x)
+    return ChannelColumn("frequency" if spectral or unit == "rpm" else "time", unit, x)
 
 
 _BINARY = re.compile(rb"^\s*58b\s", re.MULTILINE)

@@ -67,7 +67,7 @@ _WRITTEN = {
 }
 
 
-class Node(NamedTuple):
+class FormulaNode(NamedTuple):
     """A part of a formula, with its text and the column where it starts.
 
     `kind` is ``number``, ``variable``, an operator ``+ - * / **``, ``neg``, or the name of a
@@ -75,7 +75,7 @@ class Node(NamedTuple):
     """
 
     kind: str
-    parts: tuple[Node, ...]
+    parts: tuple[FormulaNode, ...]
     column: int
     text: str
     number: float = 0.0
@@ -89,7 +89,7 @@ class Formula(NamedTuple):
 
     text: str
     variables: tuple[str, str]
-    tree: Node
+    tree: FormulaNode
     clipped: bool = False
 
     def value(self, x: float, v: float) -> float:
@@ -191,13 +191,13 @@ class Reader:
     ) -> None:
         self.text, self.numbers, self.variables = text, numbers, variables
         self.used: list[str] = []
-        self.units: dict[Node, Dimension] = {}
+        self.units: dict[FormulaNode, Dimension] = {}
 
     def column(self, part: ast.expr) -> int:
         """Return the column where a part starts, counted from 1."""
         return len(self.text.encode()[: part.col_offset].decode(errors="ignore")) + 1
 
-    def read(self, part: ast.expr) -> Node:
+    def read(self, part: ast.expr) -> FormulaNode:
         """Return the node of a part of the tree."""
         at = self.column(part)
         text = ast.get_source_segment(self.text, part) or ""
@@ -207,7 +207,7 @@ class Reader:
                 refuse_at(at, f"{shown(value)} is not a number; use a number such as 2.5")
             if not abs(value) < 1e300:
                 refuse_at(at, f"{text} is not a finite number")
-            return Node("number", (), at, text, float(value))
+            return FormulaNode("number", (), at, text, float(value))
         if isinstance(part, ast.Name):
             return self.named(part.id, at)
         if isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.USub | ast.UAdd):
@@ -227,10 +227,10 @@ class Reader:
             return self.called(part, at, text)
         refuse_at(at, f"{text or 'this'} is not a formula; use + - * / ** ( ) and functions")
 
-    def named(self, name: str, at: int) -> Node:
+    def named(self, name: str, at: int) -> FormulaNode:
         """Return the node of a name, which is a variable or a number with a value."""
         if name in self.variables:
-            return Node("variable", (), at, name)
+            return FormulaNode("variable", (), at, name)
         if name not in self.numbers:
             known = (*self.variables, *self.numbers)
             if name in _ELSEWHERE:
@@ -244,11 +244,11 @@ class Reader:
             )
         if name not in self.used:
             self.used.append(name)
-        node = Node("number", (), at, name, self.numbers[name][0])
+        node = FormulaNode("number", (), at, name, self.numbers[name][0])
         self.units[node] = self.numbers[name][1]
         return node
 
-    def called(self, part: ast.Call, at: int, text: str) -> Node:
+    def called(self, part: ast.Call, at: int, text: str) -> FormulaNode:
         """Return the node of a function call."""
         name = part.func.id if isinstance(part.func, ast.Name) else ""
         if name in _REFUSED:
@@ -269,7 +269,7 @@ class Reader:
             )
         return self.made(name, (inner,), at, text)
 
-    def power(self, base: Node, exponent: Node, at: int, text: str) -> Node:
+    def power(self, base: FormulaNode, exponent: FormulaNode, at: int, text: str) -> FormulaNode:
         """Return the node of a power. The exponent must be a number."""
         if exponent.kind != "number":
             refuse_at(exponent.column, f"the exponent {exponent.text!r} varies; use a number")
@@ -286,29 +286,29 @@ class Reader:
         made = self.made("**", (base, exponent), at, text)
         if exponent.number:
             return made
-        one = Node("number", (), at, text, 1.0)  # also where the base is 0
+        one = FormulaNode("number", (), at, text, 1.0)  # also where the base is 0
         self.units[one] = self.units[made]
         return one
 
-    def made(self, kind: str, parts: tuple[Node, ...], at: int, text: str) -> Node:
+    def made(self, kind: str, parts: tuple[FormulaNode, ...], at: int, text: str) -> FormulaNode:
         """Return a node of other nodes. If all of them are numbers, it is a number, too."""
-        node = Node(kind, parts, at, text)
+        node = FormulaNode(kind, parts, at, text)
         unit = self.dimension(node)
         if all(part.kind == "number" for part in parts):
             value = value_of(node, {})[0]
             if not math.isfinite(value):
                 refuse_at(at, f"{text!r} is not a finite number")
-            node = Node("number", (), at, text, value)
+            node = FormulaNode("number", (), at, text, value)
             self.units[node] = unit
         return node
 
-    def dimension(self, node: Node) -> Dimension:
+    def dimension(self, node: FormulaNode) -> Dimension:
         """Return the dimension of a node, and check its units on the first call."""
         if node not in self.units:
             self.units[node] = self.dimension_of(node)
         return self.units[node]
 
-    def dimension_of(self, node: Node) -> Dimension:
+    def dimension_of(self, node: FormulaNode) -> Dimension:
         """Compute the dimension of a node from the dimensions of its parts."""
         kind, parts = node.kind, node.parts
         if kind == "number":
@@ -353,12 +353,12 @@ class Reader:
 
 
 @cache
-def _literal(node: Node) -> bool:
+def _literal(node: FormulaNode) -> bool:
     """Whether a node is a number that is written out, such as 2 or 1/3."""
     return node.kind == "number" and all(one in "0123456789.eE+-*/() " for one in node.text)
 
 
-def value_of(node: Node, values: Mapping[str, float], by: str = "") -> tuple[float, float]:
+def value_of(node: FormulaNode, values: Mapping[str, float], by: str = "") -> tuple[float, float]:
     """Return the value of a node, and its derivative with respect to the variable `by`."""
     kind = node.kind
     if kind == "number":

@@ -13,13 +13,13 @@ from vibroimpact.model.formula import (
     NEITHER,
     ODD,
     Formula,
-    Node,
+    FormulaNode,
     refuse_at,
     value_of,
 )
 
 
-def parity(node: Node) -> int:
+def parity(node: FormulaNode) -> int:
     """Return whether a part of a formula is ODD, EVEN or NEITHER."""
     kind = node.kind
     if kind == "number":
@@ -41,7 +41,7 @@ def parity(node: Node) -> int:
     return EVEN if parities[0] == EVEN else (FUNCTIONS[kind] if parities[0] == ODD else NEITHER)
 
 
-def terms(node: Node) -> list[tuple[float, Node]]:
+def terms(node: FormulaNode) -> list[tuple[float, FormulaNode]]:
     """Split a sum into its terms, each with its sign."""
     if node.kind == "+":
         return terms(node.parts[0]) + terms(node.parts[1])
@@ -52,7 +52,7 @@ def terms(node: Node) -> list[tuple[float, Node]]:
     return [(1.0, node)]
 
 
-def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, ...]] | None:
+def monomial(node: FormulaNode, variables: Sequence[str]) -> tuple[float, tuple[float, ...]] | None:
     """Return the factor and the powers of x, v, |x| and |v| in a product, or None if it is none."""
     kind = node.kind
     if kind == "number":
@@ -81,7 +81,7 @@ def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, 
     return None
 
 
-def everywhere(node: Node) -> Iterator[Node]:
+def everywhere(node: FormulaNode) -> Iterator[FormulaNode]:
     """Yield all parts of a formula, beginning with the whole formula."""
     yield node
     for part in node.parts:
@@ -113,7 +113,9 @@ def check_divisors(formula: Formula, both_ways: bool) -> None:
         _check_nonzero(formula, node, part, above, both_ways)
 
 
-def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_ways: bool) -> None:
+def _check_nonzero(
+    formula: Formula, node: FormulaNode, part: FormulaNode, above: bool, both_ways: bool
+) -> None:
     what = "divisor" if node.kind == "/" else "base"
 
     def at(x: float, v: float) -> float:
@@ -156,7 +158,7 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
 
 
 def operations(
-    signed: Sequence[tuple[float, Node]], variables: Sequence[str]
+    signed: Sequence[tuple[float, FormulaNode]], variables: Sequence[str]
 ) -> tuple[list[str | int], list[float]]:
     """Convert a sum of terms to reverse Polish notation.
 
@@ -179,7 +181,7 @@ def operations(
             numbers.append(value)
         return numbers.index(value)
 
-    def write(node: Node) -> None:
+    def write(node: FormulaNode) -> None:
         kind, parts = node.kind, node.parts
         if kind == "number":
             symbols.extend(("number", number(node.number)))
@@ -194,7 +196,7 @@ def operations(
                 write(part)
             symbols.append(kind)
 
-    def raise_to(base: Node, exponent: Node) -> None:
+    def raise_to(base: FormulaNode, exponent: FormulaNode) -> None:
         n = exponent.number
         if n < 0.0:
             symbols.extend(("number", number(1.0)))

@@ -26,7 +26,7 @@ from vibroimpact.model.formula import (
     ODD,
     Dimension,
     Formula,
-    Node,
+    FormulaNode,
     read_formula,
 )
 from vibroimpact.model.formula_terms import (
@@ -47,7 +47,7 @@ from vibroimpact.model.validation import Accepts, takes_fields
 _RESERVED = {*ARGUMENTS, *FUNCTIONS, "max", "u", "v", "d"}
 
 
-class Parts(NamedTuple):
+class FormulaParts(NamedTuple):
     """The terms of a formula: those that built-in laws have, and the others."""
 
     stiffness: float
@@ -56,7 +56,7 @@ class Parts(NamedTuple):
     quintic: float
     square: float
     """Coefficient c of a drag c v |v|. It is used only if there is no other damping."""
-    rest: tuple[tuple[float, Node], ...]
+    rest: tuple[tuple[float, FormulaNode], ...]
     """The other terms, each with its sign."""
 
 
@@ -234,7 +234,7 @@ class Law(Named):
         return _parsed(self.formula, self.numbers, self.is_stop)
 
     @property
-    def parts(self) -> Parts:
+    def parts(self) -> FormulaParts:
         """The terms that built-in laws have, and the other terms."""
         return _parts(self.formula, self.numbers, self.is_stop)
 
@@ -415,7 +415,7 @@ def _check_odd(read: Formula) -> None:
             )
 
 
-def _power(term: Node) -> tuple[float, float, float | None] | None:
+def _power(term: FormulaNode) -> tuple[float, float, float | None] | None:
     dissipation = None
     if term.kind == "*" and term.parts[1].kind == "+":
         one, rate = (monomial(part, ("d", "v")) for part in term.parts[1].parts)
@@ -445,7 +445,7 @@ def _parsed(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) ->
 
 
 @lru_cache(maxsize=512)
-def _parts(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> Parts:
+def _parts(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> FormulaParts:
     read = _parsed(text, numbers, is_stop)
     known: dict[tuple[float, ...], int] = {(1, 0, 0, 0): 0, (0, 1, 0, 0): 1}
     if not is_stop:
@@ -466,7 +466,7 @@ def _parts(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> 
         ]
         coefficients[4] = 0.0
     linear, dashpot, cubic, quintic, drag = coefficients
-    return Parts(linear, dashpot, cubic, quintic, drag, tuple(rest))
+    return FormulaParts(linear, dashpot, cubic, quintic, drag, tuple(rest))
 
 
 def _relaxation_time(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> float:

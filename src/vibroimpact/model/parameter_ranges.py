@@ -28,7 +28,7 @@ _VALUES = {"gap": ["5 mm", "8 mm"], "damping_ratio": [0.05, 0.1]}
 _COUNTS = {0: "no", 1: "one", 2: "two"}
 
 
-class Varied(NamedTuple):
+class ParameterValues(NamedTuple):
     """The values of one parameter that is varied."""
 
     name: str
@@ -37,7 +37,7 @@ class Varied(NamedTuple):
     long_name: str
 
 
-class Range(NamedTuple):
+class ParameterRange(NamedTuple):
     """A parameter that is varied, and its lowest and highest value in SI units."""
 
     parameter: Parameter
@@ -61,7 +61,7 @@ class Range(NamedTuple):
             )
 
 
-def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[Range]:
+def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[ParameterRange]:
     """Read parameters and their ranges, such as ``{"gap": ("3 mm", "7 mm")}``.
 
     Parameters
@@ -80,14 +80,16 @@ def read_ranges(vary: object, rig: Rig | System, count: int | None = 1) -> list[
     ]
 
 
-def read_range(varied: Parameter, span: object, field: str, *, positive: bool = False) -> Range:
+def read_range(
+    varied: Parameter, span: object, field: str, *, positive: bool = False
+) -> ParameterRange:
     """Read the range of a parameter, a pair.
 
     With `positive`, the values must be greater than 0, as for logarithmic spacing.
     """
     bounds = _bounds(varied, positive)
     low, high = read_span(span, varied.quantity, field, f"value of {varied.name}", **bounds)
-    return Range(varied, low, high, field)
+    return ParameterRange(varied, low, high, field)
 
 
 def read_values(
@@ -99,7 +101,7 @@ def read_values(
     longest: int = MOST_LISTED,
     but: tuple[str, ...] = (),
     why: str = "",
-) -> tuple[Varied, ...]:
+) -> tuple[ParameterValues, ...]:
     """Read parameters and their values, such as ``{"gap": ["3 mm", "7 mm"]}``.
 
     No value may occur twice.
@@ -186,7 +188,7 @@ def _bounds(varied: Parameter, positive: bool = False) -> dict[str, float | None
     return {"minimum": varied.least, "maximum": varied.most}
 
 
-def _values(varied: Parameter, values: object, field: str, longest: int) -> Varied:
+def _values(varied: Parameter, values: object, field: str, longest: int) -> ParameterValues:
     items = check_list(values, field, longest, f"a list of values of {varied.name}")
     numbers = [
         to_si(value, varied.quantity, f"{field}[{i}]", **_bounds(varied))
@@ -200,4 +202,4 @@ def _values(varied: Parameter, values: object, field: str, longest: int) -> Vari
         raise InputError(
             f"{field}: {pretty(twice[0], varied.quantity)} is given twice; remove one of the two"
         )
-    return Varied(varied.name, np.array(numbers), varied.units, varied.long_name)
+    return ParameterValues(varied.name, np.array(numbers), varied.units, varied.long_name)

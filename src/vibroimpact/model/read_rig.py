@@ -14,7 +14,7 @@ from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
-from vibroimpact.model.parameter_ranges import Range
+from vibroimpact.model.parameter_ranges import ParameterRange
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only
 from vibroimpact.model.study import read_rig_study
@@ -149,7 +149,7 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
     raise InputError(f"{where}: {shown(value)} is not a rig; {_ACCEPTED}{why}")
 
 
-def from_lowest(rig: Rig, along: Range) -> Rig:
+def from_lowest(rig: Rig, along: ParameterRange) -> Rig:
     """Return the rig. If its frequency is open and varied, set the lowest frequency."""
     if rig.frequency is None and along.parameter.name == "frequency":
         return rig.at(along.low)

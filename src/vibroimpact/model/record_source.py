@@ -18,7 +18,7 @@ from vibroimpact.records.channel import Channel
 from vibroimpact.records.plausibility import of_end, of_times
 from vibroimpact.records.read import read_channel
 from vibroimpact.tables.decimal_mark import Decimal
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 _SAME_PEAK = 0.01
 """Largest relative difference of a stated peak and the peak of the values."""
@@ -213,7 +213,7 @@ def _peaks(values: NDArray[np.float64]) -> list[float]:
     return peaks
 
 
-def _near(peak: Peak, size: float, factor: float) -> bool:
+def _near(peak: StatedPeak, size: float, factor: float) -> bool:
     """Whether a stated peak is a peak of values, in whose unit its own unit has this size."""
     stated = peak.value * factor
     return abs(stated - size) <= max(_SAME_PEAK * stated, 1.01 * peak.digit * factor)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 
 class Channel(NamedTuple):
@@ -42,7 +42,7 @@ class Channel(NamedTuple):
     times: NDArray[np.float64] | None = None
     """Uneven times of the values (s), which never decrease. A step that is passed interpolates
     between them."""
-    peaks: tuple[Peak, ...] = ()
+    peaks: tuple[StatedPeak, ...] = ()
     """Peaks that the file states of the values."""
     damage: str = ""
     """Reason why the values cannot be used. An error is raised if the component is chosen."""

@@ -6,10 +6,10 @@ import numpy as np
 
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.tables.checks import check_count, sampling
-from vibroimpact.tables.column import Column
+from vibroimpact.tables.column import TableColumn
 from vibroimpact.tables.file import File
 from vibroimpact.tables.headings import is_index
-from vibroimpact.tables.statements import Peak, Statements
+from vibroimpact.tables.statements import StatedPeak, Statements
 from vibroimpact.tables.table import Table, read_table
 from vibroimpact.tables.units import is_acceleration, parted
 
@@ -113,13 +113,13 @@ def _channel(table: Table, at: int, count: int) -> Channel:
     )
 
 
-def _peaks(stated: Statements, column: Column, count: int) -> tuple[Peak, ...]:
+def _peaks(stated: Statements, column: TableColumn, count: int) -> tuple[StatedPeak, ...]:
     """Peaks that the file states of a component. Of several, a peak must name it."""
     name = parted(column.name)[0].lower()
     return tuple(one for one in stated.peaks if count == 1 or one.channel.lower() == name != "")
 
 
-def _missing(table: Table, column: Column) -> str:
+def _missing(table: Table, column: TableColumn) -> str:
     gone = np.flatnonzero(~np.isfinite(np.asarray(column.values, dtype=float)))
     if not len(gone):
         return ""

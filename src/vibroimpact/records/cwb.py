@@ -12,7 +12,7 @@ import re
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.header import read_peak, read_times, step_conflict
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 _NUMBER = r"([-+]?\d+\.?\d*|[-+]?\.\d+)"
 _SEQUENCE = r"#\s*DataSequence\s*:\s*Time\s+(.*)"
@@ -47,7 +47,7 @@ def read(file: File) -> list[Channel]:
         problem = step_conflict(rated, rate[0], 1.0 / float(rate[1]), spaced.step, "its times")
     channels = []
     for column, name in enumerate(components, start=1):
-        peaks: tuple[Peak, ...] = ()
+        peaks: tuple[StatedPeak, ...] = ()
         pattern = rf"#\s*AmplitudeMAX\.?\s*{name}\s*:\s*{_NUMBER}\s*~\s*{_NUMBER}"
         if peak := file.find_line(pattern):
             larger = max(peak[1].groups(), key=lambda stated: abs(float(stated)))

@@ -12,7 +12,7 @@ import re
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.header import duration_conflict, read_peak
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 _PGA, _DURATION = "PGA_CM/S^2", "DURATION_S"
 _ENTRY = re.compile(r"([A-Z][A-Z0-9_/^]*):\s*(.*?)\s*$")
@@ -52,7 +52,7 @@ def read(file: File) -> list[Channel]:
     file.behind(behind, count)
     step = number("SAMPLING_INTERVAL_S")
     unit = entries.get("UNITS") or None
-    peaks: tuple[Peak, ...] = ()
+    peaks: tuple[StatedPeak, ...] = ()
     if math.isfinite(number(_PGA)):
         peaks = read_peak(where[_PGA], entries[_PGA], "cm/s^2", f"{_PGA}: {entries[_PGA]}")
     problem = ""

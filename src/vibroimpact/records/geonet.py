@@ -12,7 +12,7 @@ import re
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.header import check_stated, duration_conflict, each_channel, read_peak
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 _TEXT = 16
 _WIDTH = 8
@@ -52,7 +52,7 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
     words = file.lines[first + 12].split()
     step = float(reals[25])
     problem = ""
-    peaks: tuple[Peak, ...] = ()
+    peaks: tuple[StatedPeak, ...] = ()
     for line in range(first, first + _TEXT):
         if points := _POINTS.match(file.lines[line]):
             if int(points[1]) != counts[0]:

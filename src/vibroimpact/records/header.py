@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.records.channel import Channel
 from vibroimpact.tables.checks import duration_contradiction
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Number, Peak, Statements, last_digit, same
+from vibroimpact.tables.statements import StatedNumber, StatedPeak, Statements, last_digit, same
 from vibroimpact.tables.times import spacing
 from vibroimpact.tables.units import spelled
 
@@ -36,7 +36,7 @@ def check_stated(file: File, at: int, count: int, what: str = "values") -> int:
     return count
 
 
-def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[Peak, ...]:
+def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[StatedPeak, ...]:
     """Return a stated peak, or nothing if it is 0, as networks write an unknown peak.
 
     Lines are counted from 0.
@@ -52,7 +52,7 @@ def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[P
     if value == 0.0:
         return ()
     shown = " ".join((text or number).split())
-    return (Peak(value, spelled(unit) if unit else None, at, shown, last_digit(number)),)
+    return (StatedPeak(value, spelled(unit) if unit else None, at, shown, last_digit(number)),)
 
 
 def step_conflict(at: int, text: str, stated: float, other: float, source: str) -> str:
@@ -75,7 +75,7 @@ def duration_conflict(at: int, number: str, text: str, count: int, step: float) 
     """
     if float(number) == 0.0:
         return ""
-    stated = Number(float(number), at, " ".join(text.split()), last_digit(number))
+    stated = StatedNumber(float(number), at, " ".join(text.split()), last_digit(number))
     contradiction = duration_contradiction(Statements(durations=(stated,)), step, count)
     return contradiction and f"{contradiction}, or pass step= (--step)"
 

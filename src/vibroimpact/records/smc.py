@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.header import check_stated, read_peak, read_times
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 
 _KIND = re.compile(r"\s*\d\s+(?:UNKNOWN|(?:UN)?CORRECTED ACCELEROGRAM|ACCELEROGRAM)")
 _TEXT, _INTEGERS, _REALS = 11, 6, 10
@@ -104,7 +104,7 @@ def _one_line_more(file: File, at: int) -> bool:
     return len(left) == 1 and file.lines[at].strip() != ""
 
 
-def _peaks(file: File, reals: NDArray[np.float64]) -> tuple[Peak, ...]:
+def _peaks(file: File, reals: NDArray[np.float64]) -> tuple[StatedPeak, ...]:
     """The larger of the stated maximum and minimum."""
     if any(abs(reals[one]) >= _ABSENT for one in _EXTREMES):
         return ()

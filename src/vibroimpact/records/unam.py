@@ -11,7 +11,7 @@ import re
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.header import duration_conflict, read_peak, step_conflict
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Peak
+from vibroimpact.tables.statements import StatedPeak
 from vibroimpact.tables.units import spelled
 
 _TITLE = r"\s*ARCHIVO EST[AÁ]NDAR DE ACELERACI[OÓ]N"
@@ -86,7 +86,7 @@ def _of_channels(file: File, name: str) -> _Entry:
 def _compared(channel: Channel, stated: dict[str, _Entry]) -> Channel:
     """A channel with the statements that differ from its values."""
     problem = ""
-    peaks: tuple[Peak, ...] = ()
+    peaks: tuple[StatedPeak, ...] = ()
     for at, rate in stated[_RATE]:
         if channel.step and float(rate) > 0.0:
             text = f"VEL. DE MUESTREO: {rate}"

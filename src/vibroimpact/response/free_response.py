@@ -52,7 +52,7 @@ _SAME = 1e-8
 """Width, over the frequency, down to which the place of the largest motion is narrowed."""
 
 
-class Held(NamedTuple):
+class FreeMotion(NamedTuple):
     """The motion at one frequency."""
 
     frequency: float
@@ -89,18 +89,18 @@ class Flight(NamedTuple):
 
     def swept(
         self, begin: _Array, frequencies: Sequence[float], settling: Settling = _SOON
-    ) -> list[Held]:
+    ) -> list[FreeMotion]:
         """One motion after the other, each waited for, from a state."""
         levels = np.array([self.level(frequency) for frequency in frequencies])
         rows, states = sweep_holds(self.system, levels, np.array(frequencies), 0.0, begin, settling)
-        return [Held(frequencies[k], rows[k], states[k]) for k in range(len(rows))]
+        return [FreeMotion(frequencies[k], rows[k], states[k]) for k in range(len(rows))]
 
-    def beside(self, near: _Array, frequency: float) -> Held | None:
+    def beside(self, near: _Array, frequency: float) -> FreeMotion | None:
         """The stable orbit near a state, if any."""
         (held,) = self.swept(near, [frequency])
         return held if held.is_single else self.orbit(near, frequency)
 
-    def settled(self, begin: _Array, frequency: float) -> Held:
+    def settled(self, begin: _Array, frequency: float) -> FreeMotion:
         """What a motion settles on by itself; where it is slow, the stable orbit nearby, if any.
 
         A free isolator whose damping vanishes with the motion takes longer than any patience.
@@ -114,12 +114,12 @@ class Flight(NamedTuple):
             begin = held.state
         return held
 
-    def orbit(self, near: _Array, frequency: float) -> Held | None:
+    def orbit(self, near: _Array, frequency: float) -> FreeMotion | None:
         """The stable orbit that Newton's method finds from a state, if any."""
         system = self.system.copy()
         system[section_map.AMPLITUDE] = self.level(frequency)
         system[section_map.FREQUENCY] = frequency
-        size = Held(frequency, HoldRows.empty(), near).size
+        size = FreeMotion(frequency, HoldRows.empty(), near).size
         scale = np.array([size, size * math.tau * frequency, size, size, size, 1.0])
         point = np.zeros(ONE_MASS.total + 1)
         facts = np.zeros(section_map.CONTACTS + ONE_MASS.stops)
@@ -156,9 +156,9 @@ class Flight(NamedTuple):
         ) = 1, 0, Status.DONE
         state = np.zeros(ONE_MASS.width)
         state[_PARTS] = point[_POINT]
-        return Held(frequency, HoldRows(results), state)
+        return FreeMotion(frequency, HoldRows(results), state)
 
-    def backward(self, last: Held, low: float) -> Iterator[Held]:
+    def backward(self, last: FreeMotion, low: float) -> Iterator[FreeMotion]:
         """The motions at falling frequencies, down to the one at `low` (Hz), which is the last."""
         unit = self.rig.oscillator.natural_frequency
         step = _LONGEST * unit
@@ -181,7 +181,7 @@ def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
     return Flight(Rig(free, shaken), section_numbers(free, shaken.replace(phase=0.0)), level)
 
 
-def _changed(motion: Held, last: Held) -> float:
+def _changed(motion: FreeMotion, last: FreeMotion) -> float:
     """How much the swing has changed, over the larger one."""
     before, after = (float(one.row.displacement_excursion) for one in (last, motion))
     return abs(after - before) / max(after, before) if max(after, before) > 0.0 else 0.0
@@ -216,7 +216,7 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
     return _excursions(holds[::-1])
 
 
-def _excursions(holds: list[Held]) -> _Array:
+def _excursions(holds: list[FreeMotion]) -> _Array:
     rows = HoldRows(np.array([one.row.array for one in holds]))
     excursions = np.array(
         [rows.displacement_excursion, rows.acceleration_excursion, rows.transmitted_excursion]
@@ -271,7 +271,7 @@ def _largest(rig: Rig) -> tuple[float, float, float]:
     return swing, acceleration, largest.frequency
 
 
-def _top(one: Flight, holds: list[Held], curves: _Array, which: int) -> Held:
+def _top(one: Flight, holds: list[FreeMotion], curves: _Array, which: int) -> FreeMotion:
     """The motion of the largest excursion, between the motions beside the largest that was found.
 
     The frequencies fall. Narrowed by golden sections; where the largest stands at a fold there is

@@ -24,7 +24,7 @@ _BUSY = 0.25
 """Share of the events at the busiest stop that another one needs to be named."""
 
 
-class Written(NamedTuple):
+class EngineRecord(NamedTuple):
     """What the engine wrote down of a motion."""
 
     out: _Array

@@ -107,7 +107,7 @@ class Phases(PartColumns):
     def __init__(
         self,
         system: System,
-        followed: Followed,
+        followed: PhaseRecord,
         begin: _Array,
         final: _Array,
         notes: Sequence[str] = (),
@@ -276,7 +276,7 @@ class Course(NamedTuple):
         self.follow(call)
         return out
 
-    def again(self, motion: xr.Dataset) -> Followed:
+    def again(self, motion: xr.Dataset) -> PhaseRecord:
         """Follow the motion of a dataset again, which may have lost its first samples."""
         course, begins = self, float(motion["time"].values[0])
         if begins > 0.0:  # under a repeated forcing
@@ -292,10 +292,10 @@ class Course(NamedTuple):
         if len(rows) and rows[-1, layout.KIND] == layout.NOTHING:
             bounds[-1] = bounds[-2] + rows[-1, layout.LENGTH]
             since[-1] = since[-2] + rows[-1, layout.LENGTH]
-        return Followed(outcome, rows, bounds, course.phase + turns * since)
+        return PhaseRecord(outcome, rows, bounds, course.phase + turns * since)
 
 
-class Followed(NamedTuple):
+class PhaseRecord(NamedTuple):
     """The phases of a motion that was followed again."""
 
     status: Status

@@ -32,7 +32,7 @@ from vibroimpact.response.engine_input import (
     section_numbers,
     state_from,
 )
-from vibroimpact.response.history_variables import Written, listed, sampled, transmitted
+from vibroimpact.response.history_variables import EngineRecord, listed, sampled, transmitted
 from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.softening_limit import ended, judged
 
@@ -146,7 +146,7 @@ class OneMass(AnySystem):
         """Numbers of values of a sample and of an event."""
         return record_layout.SAMPLE, record_layout.EVENT
 
-    def histories(self, written: Written) -> dict[str, Any]:
+    def histories(self, written: EngineRecord) -> dict[str, Any]:
         """Return samples and events as variables of a dataset."""
         samples = {
             **sampled(written.out, self.system),

@@ -130,7 +130,7 @@ class Hysteresis(NamedTuple):
         return places
 
 
-class Range(NamedTuple):
+class FrequencyRange(NamedTuple):
     """Neighbouring frequencies of one direction that have something in common."""
 
     direction: Direction
@@ -142,7 +142,7 @@ class Range(NamedTuple):
     """How many frequencies."""
 
 
-_Feature = TypeVar("_Feature", Peak, Jump, Hysteresis, Range)
+_Feature = TypeVar("_Feature", Peak, Jump, Hysteresis, FrequencyRange)
 
 
 class Features(NamedTuple):
@@ -151,9 +151,9 @@ class Features(NamedTuple):
     peaks: tuple[Peak, ...]
     jumps: tuple[Jump, ...]
     hysteresis: tuple[Hysteresis, ...]
-    unsettled: tuple[Range, ...]
+    unsettled: tuple[FrequencyRange, ...]
     """Where the motion did not become periodic within the cycle limit."""
-    contact: tuple[Range, ...]
+    contact: tuple[FrequencyRange, ...]
     """Where the mass touches a bumper."""
     steep: tuple[Jump, ...] = ()
     """Steps that `confirmed_jumps.confirm_jumps` could not prove to be jumps."""
@@ -243,11 +243,11 @@ def hysteresis(
     return tuple(loops)
 
 
-def ranges(both: Swept, flags: Flags) -> tuple[Range, ...]:
+def ranges(both: Swept, flags: Flags) -> tuple[FrequencyRange, ...]:
     """Find the runs of neighbouring frequencies, in each direction, at which `flags` are true."""
     frequency = both.frequency
     return tuple(
-        Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
+        FrequencyRange(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
         for direction, true in zip(both.directions, flags, strict=True)
         for first, last in runs(true)
     )

@@ -28,7 +28,7 @@ from vibroimpact.response.assembly_state import (
     state_components,
 )
 from vibroimpact.response.history_variables import (
-    Written,
+    EngineRecord,
     busiest_by_mass,
     doubts_by_mass,
     listed_by_mass,
@@ -163,7 +163,7 @@ class SeveralMasses(AnySystem):
         """Numbers of values of a sample and of an event."""
         return several.samples_of(self.masses, self.stops), several.event_width(self.masses)
 
-    def histories(self, written: Written) -> dict[str, Any]:
+    def histories(self, written: EngineRecord) -> dict[str, Any]:
         """Return samples and events as variables of a dataset."""
         force = written.force_on_mass
         on = None if force is None else force.on or self.system.names[0]

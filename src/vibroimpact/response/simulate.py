@@ -37,7 +37,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.system import System
 from vibroimpact.response.engine_system import EngineSystem, engine_system
-from vibroimpact.response.history_variables import Written
+from vibroimpact.response.history_variables import EngineRecord
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.response.record_history import base_acceleration
@@ -240,7 +240,7 @@ def _variables(
         coordinates["cycle"] = ("time", cycle)
         name, values = _shaking(shaking, run.phase, cycle, samples)
     variables = states.histories(
-        Written(run.out, run.events, run.interval, shaking, run.phase, name, values)
+        EngineRecord(run.out, run.events, run.interval, shaking, run.phase, name, values)
     )
     if isinstance(shaking, Record):  # a record has steps, not cycles
         variables = {name: one for name, one in variables.items() if "cycle" not in name}

@@ -24,7 +24,15 @@ from vibroimpact.model.parameters import usual
 from vibroimpact.scenarios.axes import Axis
 from vibroimpact.scenarios.map_node import COUNTS, VALUES
 from vibroimpact.scenarios.scenario import FLAGS
-from vibroimpact.stores.zarr_store import Block, Kind, create, finished, folder, read, write_block
+from vibroimpact.stores.zarr_store import (
+    Kind,
+    StorePart,
+    create,
+    finished,
+    folder,
+    read,
+    write_block,
+)
 
 if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
     import zarr
@@ -133,7 +141,7 @@ def map_store(
     make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
     rows, columns = (chunk_slices(len(one.values), chunk) for one in reversed(axes))
     blocks = (
-        Block(tuple((level, r, c) for level in range(levels)), (row, column))
+        StorePart(tuple((level, r, c) for level in range(levels)), (row, column))
         for r, row in enumerate(rows)
         for c, column in enumerate(columns)
     )

@@ -37,13 +37,13 @@ from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
-from vibroimpact.stability.bifurcation_locus import Locus, Place
+from vibroimpact.stability.bifurcation_locus import Locus, LocusPoint
 from vibroimpact.stability.bifurcations import BREAKING, GRAZING
 from vibroimpact.stability.branch_dataset import state_of
 from vibroimpact.stability.defining_system import Defining, Spot, solve
 from vibroimpact.stability.initial_orbit import scales
 from vibroimpact.stability.orbit_curve import CLOSED
-from vibroimpact.stability.two_parameters import Plane, plane
+from vibroimpact.stability.two_parameters import ParameterPlane, plane
 from vibroimpact.tasks.threads import Progress, counted
 
 _Array = NDArray[np.float64]
@@ -138,7 +138,7 @@ def bifurcation_curve(
     traces, report = [], counted(progress)
     for sense in (-1.0, 1.0):
         along = np.append(np.zeros(len(y) - 2), [0.3 * sense, sense])
-        begin = Place(system, spot, unit_tangent(spot.jacobian, along, system.seen), 0.0)
+        begin = LocusPoint(system, spot, unit_tangent(spot.jacobian, along, system.seen), 0.0)
         locus = Locus(begin, ends)
         traces.append(arclength.follow(locus, begin, most_points, report))
         if traces[0].ended == CLOSED:
@@ -159,7 +159,7 @@ def bifurcation_curve(
 
 
 def _start(
-    over: Plane, kind: str, start: xr.Dataset, spans: list[tuple[float, float]]
+    over: ParameterPlane, kind: str, start: xr.Dataset, spans: list[tuple[float, float]]
 ) -> tuple[Defining, _Array]:
     layout, p = over.family.layout, float(start["bifurcation_value"])
     parts, mode = layout.near(layout.read(start["bifurcation_section"]))
@@ -176,7 +176,7 @@ def _start(
 def _dataset(
     spots: list[Spot],
     cusps: list[Spot],
-    over: Plane,
+    over: ParameterPlane,
     kind: str,
     spans: list[tuple[float, float]],
     ended: tuple[str, str],

@@ -44,7 +44,7 @@ from vibroimpact.model.system import System
 from vibroimpact.response.engine_system import EngineSystem, engine_rig, engine_system
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
-from vibroimpact.stability.diagram_point import Kind, Look, Seen, look_at, point_width
+from vibroimpact.stability.diagram_point import Kind, SectionRecording, Seen, look_at, point_width
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Tally, each
@@ -175,7 +175,7 @@ def bifurcation_diagram(
     values: _Array = np.geomspace(*ends, steps) if log else np.linspace(*ends, steps)
     values[0], values[-1] = ends
     settling = Settling(tolerance, max_cycles, points, max_events)
-    look = Look(section, points, exponent_cycles, max_events)
+    look = SectionRecording(section, points, exponent_cycles, max_events)
     workers = workers_for(threads, where)
     own = () if outputs is None else read_outputs(outputs, rig)
     ways = _ways(directions, starts, random, system)

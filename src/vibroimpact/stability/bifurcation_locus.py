@@ -33,7 +33,7 @@ _TOUCHED = 1e-4  # scaled; by so much rounding may move a motion that grazes a r
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
+class LocusPoint:
     """A point of the curve."""
 
     system: Defining
@@ -58,7 +58,7 @@ class Place:
 class Locus:
     """What is followed (see `continuation.arclength.Path`): bifurcations of one kind."""
 
-    first: Place
+    first: LocusPoint
     spans: list[tuple[float, float]]
     """Ranges of both parameters."""
     marks: dict[float, list[tuple[_Array, _Array]]] = field(default_factory=dict)
@@ -74,24 +74,26 @@ class Locus:
         """Sizes of the state's components and the parameters."""
         return self.first.system.scale
 
-    def solved(self, here: Place, length: float) -> Spot | None:
+    def solved(self, here: LocusPoint, length: float) -> Spot | None:
         """Predict and correct."""
         aim = predicted(self, here, length)
         spot = solve(here.system, aim, here.tangent)
         return None if spot is None or is_other_curve(self, spot.y, aim, length) else spot
 
-    def step(self, here: Place, length: float) -> tuple[Place | None, bool]:
+    def step(self, here: LocusPoint, length: float) -> tuple[LocusPoint | None, bool]:
         """See `Path`."""
         spot = self.solved(here, length)
         if spot is None or not (_same(here, spot.orbit) or self._passes(here, spot, length)):
             return None, False
         return self._after(here, spot), False
 
-    def _after(self, here: Place, spot: Spot) -> Place:
+    def _after(self, here: LocusPoint, spot: Spot) -> LocusPoint:
         tangent = unit_tangent(spot.jacobian, here.tangent, self.seen)
-        return Place(here.system, spot, tangent, here.arclength + distance(self, spot.y, here.y))
+        return LocusPoint(
+            here.system, spot, tangent, here.arclength + distance(self, spot.y, here.y)
+        )
 
-    def _passes(self, here: Place, there: Spot, length: float) -> bool:
+    def _passes(self, here: LocusPoint, there: Spot, length: float) -> bool:
         """Whether the curve goes on where the contacts change within a step.
 
         Where contacts merge the condition is continuous. Where one comes or goes at no speed it
@@ -112,11 +114,11 @@ class Locus:
         joined = distance(self, last.y, there.y) <= _JOINED * (bad - good) + 1e-9
         return spot is not None and joined
 
-    def corner(self, here: Place, length: float) -> list[Place]:
+    def corner(self, here: LocusPoint, length: float) -> list[LocusPoint]:
         """See `Path`: a curve ends in its corners."""
         return []
 
-    def end(self, here: Place, there: Place) -> tuple[list[Place], str] | None:
+    def end(self, here: LocusPoint, there: LocusPoint) -> tuple[list[LocusPoint], str] | None:
         """See `Path`."""
         over = here.system.plane
         for i, (low, high) in enumerate(self.spans):
@@ -131,7 +133,9 @@ class Locus:
                 )
         return ([there], CLOSED) if self._returned(here, there) else None
 
-    def _on_bound(self, here: Place, there: Place, which: int, bound: float) -> list[Place]:
+    def _on_bound(
+        self, here: LocusPoint, there: LocusPoint, which: int, bound: float
+    ) -> list[LocusPoint]:
         """The point at the end of the range, if there is one."""
         share = (bound - here.y[which]) / (there.y[which] - here.y[which])
         y = here.y + share * (there.y - here.y)
@@ -139,7 +143,7 @@ class Locus:
         spot = solve(here.system, y, np.eye(len(y))[which])
         return [] if spot is None else [self._after(here, spot)]
 
-    def _returned(self, here: Place, there: Place) -> bool:
+    def _returned(self, here: LocusPoint, there: LocusPoint) -> bool:
         """Whether a step has passed the first orbit, seen a whole number of cycles later or not."""
         phase = there.phase
         if here.phase != phase:
@@ -172,7 +176,7 @@ class Locus:
             )
         return marks
 
-    def in_other_coordinates(self, here: Place) -> Place | None:
+    def in_other_coordinates(self, here: LocusPoint) -> LocusPoint | None:
         """See `Path`: at another section, for where an event falls on it there is a corner."""
         for number in range(here.phases_tried, len(PHASES)):
             same = self._at_phase(here, here.phase + PHASES[number])
@@ -180,7 +184,7 @@ class Locus:
                 return replace(same, phases_tried=number + 1)
         return None
 
-    def _at_phase(self, here: Place, phase: float) -> Place | None:
+    def _at_phase(self, here: LocusPoint, phase: float) -> LocusPoint | None:
         """The same point at another section: the same orbit, and the curve's same sense.
 
         Beside a grazing Newton's method may find another bifurcation, and differences across it
@@ -203,9 +207,9 @@ class Locus:
             same = moved <= _TOUCHED
         else:
             same = moved <= SAME and float(tangent * self.seen @ carried) >= TURN
-        return Place(system, spot, tangent, here.arclength) if same else None
+        return LocusPoint(system, spot, tangent, here.arclength) if same else None
 
-    def _carried(self, here: Place, phase: float) -> _Array | None:
+    def _carried(self, here: LocusPoint, phase: float) -> _Array | None:
         """The curve's tangent as the motion itself carries it over to another section.
 
         Of a grazing, after which a motion may be another, only what no section changes: the sense
@@ -223,12 +227,12 @@ class Locus:
         change = np.append(seen[0] - earlier[0], here.y[-1] - y[-1]) / self.scale
         return change / np.linalg.norm(change * self.seen)
 
-    def lost(self, here: Place) -> str:
+    def lost(self, here: LocusPoint) -> str:
         """See `Path`."""
         where = ", ".join(f"{value:.9g}" for value in here.y[-2:])
         return beyond(here.spot.orbit, here.system.kind, f"({where})")
 
-    def cusp(self, here: Place, there: Place) -> Spot | None:
+    def cusp(self, here: LocusPoint, there: LocusPoint) -> Spot | None:
         """The point between two at which both parameters turn back, if they do."""
         if here.phase != there.phase or here.tangent[-2:] @ there.tangent[-2:] >= 0.0:
             return None
@@ -250,6 +254,6 @@ def _along_parameters(tangent: _Array) -> _Array:
     return projection
 
 
-def _same(here: Place, orbit: Orbit) -> bool:
+def _same(here: LocusPoint, orbit: Orbit) -> bool:
     """Whether an orbit has the contacts of a point; those of one that grazes rounding decides."""
     return here.system.kind == GRAZING or orbit.contacts == here.spot.orbit.contacts

@@ -8,16 +8,16 @@ import xarray as xr
 from vibroimpact.continuation import arclength
 from vibroimpact.model import Rig, State
 from vibroimpact.model.argument_types import Period, PositiveInt
-from vibroimpact.model.parameter_ranges import Range, Ranges, read_ranges
+from vibroimpact.model.parameter_ranges import ParameterRange, Ranges, read_ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
-from vibroimpact.stability.branch_dataset import Followed, as_dataset
+from vibroimpact.stability.branch_dataset import BranchRecord, as_dataset
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.folds import FREE, InContact, bounded_by_flight, turns_into_flight
 from vibroimpact.stability.initial_orbit import first_orbit
-from vibroimpact.stability.orbit_curve import CLOSED, Branch, Station
+from vibroimpact.stability.orbit_curve import CLOSED, OrbitBranch, Station
 from vibroimpact.stability.parameter_family import Family, family
 from vibroimpact.tasks.threads import Progress, counted
 
@@ -132,7 +132,7 @@ def turning_points(
     """
     (along,) = read_ranges({"frequency": span}, rig)
     _, first = _first_orbit(rig, start, along, 1)
-    path = InContact if bounded_by_flight(first) else Branch
+    path = InContact if bounded_by_flight(first) else OrbitBranch
     stations, ended, _ = _both_ways(first, span, most_points, path=path)
     frequencies = [
         one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns
@@ -146,7 +146,7 @@ def turning_points(
 def _first_orbit(
     rig: Rig,
     start: State | xr.DataArray | xr.Dataset | None,
-    along: Range,
+    along: ParameterRange,
     period: int | None,
 ) -> tuple[Family, Orbit]:
     """Return the rig along the varied parameter, and the first orbit."""
@@ -157,10 +157,10 @@ def _first_orbit(
 
 def follow_both_ways(
     first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
-) -> Followed:
+) -> BranchRecord:
     """Continue a branch in both directions from an orbit, and locate its bifurcations."""
     stations, ended, closed = _both_ways(first, span, most_points, progress)
-    return Followed(stations, list(bifurcations.find(stations)), ended, closed)
+    return BranchRecord(stations, list(bifurcations.find(stations)), ended, closed)
 
 
 def _both_ways(
@@ -168,7 +168,7 @@ def _both_ways(
     span: tuple[float, float],
     most_points: int,
     progress: Progress | None = None,
-    path: type[Branch] = Branch,
+    path: type[OrbitBranch] = OrbitBranch,
 ) -> tuple[list[Station], tuple[str, str], bool]:
     """Return the orbits of a branch in order, why it ends, and whether it is closed."""
     traces, report = [], counted(progress)

@@ -36,7 +36,7 @@ _OF_MASSES = (
 """What a bifurcation of an assembly shows."""
 
 
-class Followed(NamedTuple):
+class BranchRecord(NamedTuple):
     """A branch as it was followed."""
 
     stations: list[Station]
@@ -47,7 +47,7 @@ class Followed(NamedTuple):
 
 
 def as_dataset(
-    followed: list[Followed],
+    followed: list[BranchRecord],
     fam: Family,
     span: tuple[float, float],
     created: str = "branch",
@@ -138,7 +138,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
     return np.reshape(values, (len(orbits), len(outputs)))
 
 
-def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
+def _bifurcations(followed: list[BranchRecord], fam: Family) -> dict[str, Any]:
     """The bifurcations as variables."""
     pairs = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in pairs]).reshape(-1, fam.states)

@@ -11,7 +11,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, nearest_pair
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated, margin_of
 from vibroimpact.stability.parent_branches import half_plus
-from vibroimpact.stability.two_parameters import Plane
+from vibroimpact.stability.two_parameters import ParameterPlane
 
 _Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ class Spot(NamedTuple):
 class Defining(NamedTuple):
     """The defining system of one curve."""
 
-    plane: Plane
+    plane: ParameterPlane
     kind: str
     cycles: int
     mirror: bool

@@ -17,7 +17,7 @@ from vibroimpact.response.outputs import NamedOutput, computed
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit, judge_sections
 from vibroimpact.stability.motion_type import Judgement
-from vibroimpact.stability.parameter_sweep import Held
+from vibroimpact.stability.parameter_sweep import SettledPoint
 from vibroimpact.stability.settled_motion import Settled
 from vibroimpact.stability.steady import approached
 
@@ -41,7 +41,7 @@ def point_width(section: Kind, states: EngineSystem) -> int:
     return len(_IMPACT) if section == "impacts" else states.parts
 
 
-class Look(NamedTuple):
+class SectionRecording(NamedTuple):
     """How the section of a motion is recorded."""
 
     section: Kind
@@ -54,7 +54,7 @@ class Look(NamedTuple):
 class Seen(NamedTuple):
     """What is seen at one value."""
 
-    held: Held
+    held: SettledPoint
     kind: Judgement
     """Exponents per cycle."""
     points: _Array
@@ -64,7 +64,9 @@ class Seen(NamedTuple):
     """Own outputs."""
 
 
-def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Seen:
+def look_at(
+    held: SettledPoint, look: SectionRecording, outputs: tuple[NamedOutput, ...] = ()
+) -> Seen:
     """Name a motion, take its section, and compute own outputs."""
     seen = _looked_at(held, look)
     if seen.status not in (Status.DONE, Status.NOT_SETTLED):
@@ -77,7 +79,7 @@ def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Se
     return seen._replace(outputs=computed(outputs, motion.rig, start, cycles))
 
 
-def _looked_at(held: Held, look: Look) -> Seen:
+def _looked_at(held: SettledPoint, look: SectionRecording) -> Seen:
     motion = held.motion
     if motion.status not in (Status.DONE, Status.NOT_SETTLED):
         return _nothing(held, look, motion.status)
@@ -104,7 +106,7 @@ def _looked_at(held: Held, look: Look) -> Seen:
     return Seen(held._replace(motion=motion), kind, points, named)
 
 
-def _wandering(motion: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
+def _wandering(motion: Settled, look: SectionRecording) -> tuple[Judgement, _Array, Status]:
     """As `judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
     for longer in (1, *LONGER):
@@ -145,7 +147,7 @@ def _impacts(motion: Settled, cycles: int, max_events: int) -> tuple[_Array, Sta
     return np.column_stack(columns), Status(outcome)
 
 
-def _nothing(held: Held, look: Look, status: Status) -> Seen:
+def _nothing(held: SettledPoint, look: SectionRecording, status: Status) -> Seen:
     """Of a motion that was given up."""
     empty = np.full(2, np.nan)
     kind = Judgement("undecided", 0, empty, empty, status.advice)

@@ -21,7 +21,7 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
-from vibroimpact.model.parameter_ranges import Values, Varied, read_values
+from vibroimpact.model.parameter_ranges import ParameterValues, Values, read_values
 from vibroimpact.model.parameters import set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
@@ -248,7 +248,7 @@ def _rig_at(
     grid: NDArray[np.float64],
     i: int,
     phase: float,
-    values: Iterable[tuple[Varied, int]],
+    values: Iterable[tuple[ParameterValues, int]],
 ) -> Rig:
     """Return the rig at one of the frequencies and one value of each parameter."""
     numbers = {one.name: float(one.values[k]) for one, k in values}

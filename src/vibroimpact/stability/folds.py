@@ -21,7 +21,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, resonance_ratio
 from vibroimpact.stability.fixed_points import VALUE, Orbit
 from vibroimpact.stability.impact_grazing import has_rigid_stop
-from vibroimpact.stability.orbit_curve import Branch, Station, near_other_contacts
+from vibroimpact.stability.orbit_curve import OrbitBranch, Station, near_other_contacts
 
 FREE = "the orbit leaves the stops"
 """Why a branch in contact is not followed further."""
@@ -45,7 +45,7 @@ def flies(orbit: Orbit) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class InContact(Branch):
+class InContact(OrbitBranch):
     """A branch over the frequency that is followed until the stops are not touched any more."""
 
     left: list[Station] = field(default_factory=list)

@@ -85,7 +85,7 @@ class Station:
 
 
 @dataclass(frozen=True, eq=False)
-class Branch:
+class OrbitBranch:
     """What is followed (see `continuation.arclength.Path`): orbits of one map along a parameter."""
 
     first: Station
@@ -389,7 +389,7 @@ def neutral(here: Station) -> bool:
 
 def solved(start: Station, length: float) -> Orbit | None:
     """The orbit after a part of a step, whatever its contacts."""
-    return Branch(start, -math.inf, math.inf).stepped(start, length)
+    return OrbitBranch(start, -math.inf, math.inf).stepped(start, length)
 
 
 def _born_grazing(met: Orbit) -> str:

@@ -29,7 +29,7 @@ _Array = NDArray[np.float64]
 _SOUND = (Status.DONE, Status.NOT_SETTLED)
 
 
-class Held(NamedTuple):
+class SettledPoint(NamedTuple):
     """Where a motion went at one value, and what was measured of it there."""
 
     motion: Settled
@@ -59,7 +59,7 @@ def stepped(
     every: Sequence[Rig],
     start: _Array | None,
     settling: Settling,
-    seen: Callable[[Held], None],
+    seen: Callable[[SettledPoint], None],
     tally: Tally,
     *,
     carry: bool = True,
@@ -77,7 +77,7 @@ def stepped(
     carry
         Whether the next goes on where one has ended; if not, it begins where the first did.
     """
-    before: Held | None = None
+    before: SettledPoint | None = None
     for rig in every:
         if tally[1]:
             raise Stopped
@@ -95,15 +95,17 @@ def stepped(
         tally[0] += 1
 
 
-def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
+def _held(rig: Rig, state: _Array, settling: Settling) -> SettledPoint:
     engine = prepare(rig)
     row, reached = engine.dwell(state, settling)
     status = Status(int(engine.states.judged(row.status, row.peak_displacement)))
     motion = Settled(engine, reached, int(row.period), int(row.cycles), status)
-    return Held(motion, row)
+    return SettledPoint(motion, row)
 
 
-def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: int) -> list[_Array]:
+def random_states(
+    met: Iterable[SettledPoint], every: Sequence[Rig], count: int, seed: int
+) -> list[_Array]:
     """Random states up to 1.5 times as large as what was met, or as the widest gap if that is more.
 
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
@@ -117,7 +119,7 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
     return [random_state(every[0], generator, size, omega) for _ in range(count)]
 
 
-def _size(held: Held) -> float:
+def _size(held: SettledPoint) -> float:
     """Return the largest displacement of all masses (m)."""
     measured = held.motion.states.measured(held.measured.array, ())
     return float(np.max(measured["peak_displacement"][1]))

@@ -28,7 +28,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, bifurcating_orbits
 from vibroimpact.stability.branch import follow_both_ways
-from vibroimpact.stability.branch_dataset import Followed, as_dataset
+from vibroimpact.stability.branch_dataset import BranchRecord, as_dataset
 from vibroimpact.stability.fixed_points import Orbit, at_phase, corrected, images
 from vibroimpact.stability.parameter_family import family
 from vibroimpact.stability.starting_orbits import free, in_basins, settled, values
@@ -123,7 +123,7 @@ def resonance_diagram(
     own = read_outputs(outputs, rig)
     datasets = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
     begin = values(fam, ends, starts)
-    followed: list[Followed] = []
+    followed: list[BranchRecord] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
         (first, None)
         for first in itertools.chain(
@@ -166,7 +166,9 @@ def resonance_diagram(
     return data
 
 
-def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[float, float]) -> bool:
+def _used(
+    origin: Bifurcation | None, followed: list[BranchRecord], span: tuple[float, float]
+) -> bool:
     """Return whether a computed branch has already turned in a bifurcation."""
     if origin is None:
         return False
@@ -179,7 +181,7 @@ def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[floa
     )
 
 
-def on_branch(orbit: Orbit, one: Followed) -> bool:
+def on_branch(orbit: Orbit, one: BranchRecord) -> bool:
     """Return whether an orbit lies on a branch, up to whole cycles and its mirror image."""
     section = one.stations[0].orbit.section
     if section.count != orbit.section.count or section.mirror != orbit.section.mirror:

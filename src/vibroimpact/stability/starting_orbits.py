@@ -22,7 +22,7 @@ from vibroimpact.response.hold_rows import Settling
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import Family, family
-from vibroimpact.stability.parameter_sweep import Held, random_states, rigs_along, stepped
+from vibroimpact.stability.parameter_sweep import SettledPoint, random_states, rigs_along, stepped
 from vibroimpact.tasks.threads import Tally, each
 
 _Array = NDArray[np.float64]
@@ -32,7 +32,7 @@ _SAME = 1e-6
 """Two orbits of one period whose extremes agree to this share are one, or mirror images."""
 
 
-class Values(NamedTuple):
+class StartingValues(NamedTuple):
     """The values of the parameter at which branches are begun."""
 
     fam: Family
@@ -53,14 +53,14 @@ def _made(fam: Family, value: float) -> Family:
     return fam._replace(value=value, rig=rig)
 
 
-def values(fam: Family, span: tuple[float, float], count: int) -> Values:
+def values(fam: Family, span: tuple[float, float], count: int) -> StartingValues:
     """So many values over a range of a family's parameter."""
     grid = np.linspace(*span, count)
     grid[0], grid[-1] = span
-    return Values(fam, span, grid, rigs_along(fam.parameter, fam.rig, grid))
+    return StartingValues(fam, span, grid, rigs_along(fam.parameter, fam.rig, grid))
 
 
-def free(at: Values) -> Iterator[Orbit]:
+def free(at: StartingValues) -> Iterator[Orbit]:
     """Steady free flight where it reaches no stop: at the ends of each such range."""
     swings = [_swing(one) for one in at.every]
     flies = [_clear(one.oscillator, swing) for one, swing in zip(at.every, swings, strict=True)]
@@ -101,7 +101,7 @@ def _clear(rig: Oscillator, swing: _Phasors | None) -> bool:
     return bool(high < right and -low < left)
 
 
-def settled(at: Values, longest: int, random: int, seed: int) -> Iterator[Orbit]:
+def settled(at: StartingValues, longest: int, random: int, seed: int) -> Iterator[Orbit]:
     """Orbits on which motions settle: carried on up and down, and from random starts.
 
     Each once at each value, mirror images left out.
@@ -143,21 +143,23 @@ class _Way(NamedTuple):
     sense: int
 
 
-def _held(at: Values, way: _Way, tally: Tally) -> list[Held]:
+def _held(at: StartingValues, way: _Way, tally: Tally) -> list[SettledPoint]:
     """What motions settle on at each value, in rising order of them."""
-    motions: list[Held] = []
+    motions: list[SettledPoint] = []
     every = at.every[:: way.sense]
     stepped(every, way.start, Settling(), motions.append, tally, carry=way.start is None)
     return motions[:: way.sense]
 
 
-def _ends(one: Held) -> tuple[float, float]:
+def _ends(one: SettledPoint) -> tuple[float, float]:
     """How far a motion goes to both sides; of a symmetric rig the smaller first."""
     ends = float(one.measured.displacement_max), -float(one.measured.displacement_min)
     return (min(ends), max(ends)) if one.motion.symmetric else ends
 
 
-def _met(one: Held, ends: tuple[float, float], known: list[tuple[int, float, float]]) -> bool:
+def _met(
+    one: SettledPoint, ends: tuple[float, float], known: list[tuple[int, float, float]]
+) -> bool:
     """Whether an orbit of its period that goes as far was met before."""
     size = max(abs(end) for end in ends)
     return any(

@@ -17,7 +17,7 @@ _Array = NDArray[np.float64]
 _AGREE = 1e-9
 
 
-class Plane(NamedTuple):
+class ParameterPlane(NamedTuple):
     """A rig over two parameters p and q, each of which moves it along its own straight line."""
 
     family: Family
@@ -37,7 +37,7 @@ class Plane(NamedTuple):
         return self.family._replace(base=np.where(change != 0.0, base + change, base))
 
 
-def plane(rig: Rig, names: tuple[str, str]) -> Plane:
+def plane(rig: Rig, names: tuple[str, str]) -> ParameterPlane:
     """Prepare a rig for being followed over two parameters.
 
     Raises
@@ -59,7 +59,7 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     both = first.symmetric and second.symmetric
     if second.uneven:
         make_uneven(first.base)
-    made = Plane(first, other, second.value, second.direction, both)
+    made = ParameterPlane(first, other, second.value, second.direction, both)
     p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
     guess = made.at_vectors(q).system(p)
     writes = [(first.parameter, p), (other, q)]

@@ -43,7 +43,7 @@ class Kind(NamedTuple):
         return [group[name] for name in self.arrays]  # type: ignore[misc]
 
 
-class Block(NamedTuple):
+class StorePart(NamedTuple):
     """A part of a store that is written at once."""
 
     marks: tuple[tuple[int, ...], ...]
@@ -124,7 +124,7 @@ def folder(
     kind: Kind,
     parameters: dict[str, Any],
     make: Callable[[zarr.Group], None],
-    blocks: Iterable[Block],
+    blocks: Iterable[StorePart],
 ) -> Iterator[zarr.Group]:
     """Open a store, or make it; None keeps it in memory.
 
@@ -195,7 +195,7 @@ class Template(NamedTuple):
     kind: Kind
     parameters: dict[str, Any]
     make: Callable[[zarr.Group], None]
-    blocks: list[Block]
+    blocks: list[StorePart]
 
     def create(self, store: Any) -> zarr.Group:
         """Write it to an empty store."""
@@ -295,13 +295,13 @@ def _holds(path: Path, content: bytes) -> bool:
         return False
 
 
-def _damaged(there: Path, group: zarr.Group, template: Template) -> list[Block]:
+def _damaged(there: Path, group: zarr.Group, template: Template) -> list[StorePart]:
     """The blocks that were begun and cannot be read."""
     arrays = template.kind.arrays_of(group)
     return [block for block in template.blocks if not _is_intact(there, group, arrays, block)]
 
 
-def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: Block) -> bool:
+def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: StorePart) -> bool:
     """Whether a block can be read, or is not there yet."""
     try:
         marks = [group["done"][mark] == 1 for mark in block.marks]  # type: ignore[index]
@@ -315,14 +315,14 @@ def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: Block) 
     return all(path.is_file() for path in _chunks(there, arrays, block))
 
 
-def _chunks(there: Path, arrays: list[Any], block: Block) -> Iterator[Path]:
+def _chunks(there: Path, arrays: list[Any], block: StorePart) -> Iterator[Path]:
     """The files of a block in some arrays."""
     for array in arrays:
         number = _chunk_number(array, block.place)
         yield there / array.basename / array.metadata.encode_chunk_key(number)
 
 
-def _forget(there: Path, group: zarr.Group, template: Template, block: Block) -> None:
+def _forget(there: Path, group: zarr.Group, template: Template, block: StorePart) -> None:
     """Remove a block and its marks."""
     done: Any = group["done"]
     arrays = template.kind.arrays_of(group)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.tables.file import File
-from vibroimpact.tables.statements import Number, Statements, same
+from vibroimpact.tables.statements import StatedNumber, Statements, same
 from vibroimpact.tables.table import Table
 from vibroimpact.tables.times import IN_A_SECOND, spacing
 
@@ -45,7 +45,7 @@ def check_count(file: File, stated: Statements, counts: Iterable[int]) -> None:
         raise wrong_count(file, stated.counts[0], numbers[0])
 
 
-def wrong_count(file: File, stated: Number, count: int) -> InputError:
+def wrong_count(file: File, stated: StatedNumber, count: int) -> InputError:
     """Return the error for a stated number of samples that the values contradict."""
     return file.refused(
         stated.line,

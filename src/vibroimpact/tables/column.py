@@ -13,7 +13,7 @@ from vibroimpact.tables.units import Units
 Array = NDArray[np.float64]
 
 
-class Column(NamedTuple):
+class TableColumn(NamedTuple):
     """A column of a table."""
 
     name: str

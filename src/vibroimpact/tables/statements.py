@@ -122,7 +122,7 @@ _SLASHED = re.compile(
 _ABOUT_VALUES = re.compile(r"acc|ampl|data|value|motion|comp|unit|^\W*\w+\W*$", re.IGNORECASE)
 
 
-class Number(NamedTuple):
+class StatedNumber(NamedTuple):
     """A number that a line states."""
 
     value: float
@@ -135,7 +135,7 @@ class Number(NamedTuple):
     """Size of the last digit that is written, in the unit of the value."""
 
 
-class Peak(NamedTuple):
+class StatedPeak(NamedTuple):
     """The largest value that a line states of a channel."""
 
     value: float
@@ -153,12 +153,12 @@ class Peak(NamedTuple):
 class Statements(NamedTuple):
     """All statements above a table."""
 
-    counts: tuple[Number, ...] = ()
-    steps: tuple[Number, ...] = ()
+    counts: tuple[StatedNumber, ...] = ()
+    steps: tuple[StatedNumber, ...] = ()
     """Times between samples (s), from steps and from sampling rates."""
-    durations: tuple[Number, ...] = ()
+    durations: tuple[StatedNumber, ...] = ()
     """In s."""
-    peaks: tuple[Peak, ...] = ()
+    peaks: tuple[StatedPeak, ...] = ()
     units: tuple[str, ...] = ()
     """Units of the values after a word such as "unit", from the last line to the first."""
     hints: tuple[str, ...] = ()
@@ -167,12 +167,12 @@ class Statements(NamedTuple):
     """Unit of times, if a line states it."""
 
     @property
-    def step(self) -> Number | None:
+    def step(self) -> StatedNumber | None:
         """The first stated step."""
         return self.steps[0] if self.steps else None
 
     @property
-    def other_step(self) -> Number | None:
+    def other_step(self) -> StatedNumber | None:
         """A step that differs from the first one, or None."""
         first = self.step
         differs = (one for one in self.steps if first and not same(one.value, first.value))
@@ -186,11 +186,11 @@ def same(one: float, other: float) -> bool:
 
 def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
     """Read the statements in lines, each with its number and without marks of comments."""
-    counts: list[Number] = []
-    steps: list[Number] = []
-    bare_steps: list[Number] = []
-    durations: list[Number] = []
-    peaks: list[Peak] = []
+    counts: list[StatedNumber] = []
+    steps: list[StatedNumber] = []
+    bare_steps: list[StatedNumber] = []
+    durations: list[StatedNumber] = []
+    peaks: list[StatedPeak] = []
     units: list[str] = []
     hints: list[str] = []
     time_unit = None
@@ -212,7 +212,7 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
                 _add(durations, at, match, size)
         keyed = [*_COUNT.finditer(text)]
         counts += [
-            Number(float(match["number"]), at, match[0].strip())
+            StatedNumber(float(match["number"]), at, match[0].strip())
             for match in keyed or _BARE_COUNT.finditer(text)
         ]
         for match in (*_BARE_STEP.finditer(text), *_OWN_STEP.finditer(text)):
@@ -222,7 +222,7 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
             number = match["number"] or match["at"]
             size = 1e3 if re.search(r"\d ?khz", match[0], re.IGNORECASE) else 1.0
             if (value := _value(number) * size) > 0.0:
-                bare_steps.append(Number(1.0 / value, at, match[0]))
+                bare_steps.append(StatedNumber(1.0 / value, at, match[0]))
         if not unit and (hint := _hint(text)):
             hints.insert(0, hint)
     return Statements(
@@ -251,9 +251,9 @@ def sampling_of(name: str) -> str | None:
     return None
 
 
-def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
+def _peaks(at: int, text: str) -> tuple[str, list[StatedPeak]]:
     """The peaks of a line, and the line without them: their units and times are of nothing else."""
-    peaks: list[Peak] = []
+    peaks: list[StatedPeak] = []
     for match in _PEAK.finditer(text):
         words = re.findall(r"[\w+-]+", match["what"].replace(".", " "))
         unit = match["bracket"] or match["unit"]
@@ -271,7 +271,7 @@ def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
         number = max(sizes, key=lambda one: abs(_value(one)))
         shown = match[0][: match.start("at") - match.start()] if match["at"] else match[0]
         peaks.append(
-            Peak(
+            StatedPeak(
                 abs(_value(number)),
                 spelled(unit) if unit else None,
                 at,
@@ -284,7 +284,12 @@ def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
 
 
 def _add(
-    numbers: list[Number], at: int, match: re.Match[str], size: float, *, inverse: bool = False
+    numbers: list[StatedNumber],
+    at: int,
+    match: re.Match[str],
+    size: float,
+    *,
+    inverse: bool = False,
 ) -> None:
     """Add a number that is greater than 0, such as a step; a rate becomes a step."""
     value = _value(match["number"]) * size
@@ -293,7 +298,7 @@ def _add(
         text = match[0].strip(" ,;:")
         if match.re in (_BARE_STEP, _OWN_STEP):
             text = f"{match['number']} {match['unit']}"
-        numbers.append(Number(1.0 / value if inverse else value, at, text, digit))
+        numbers.append(StatedNumber(1.0 / value if inverse else value, at, text, digit))
 
 
 def _size(match: re.Match[str], unit: str) -> float:

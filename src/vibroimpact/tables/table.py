@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.tables.column import Array, Column
+from vibroimpact.tables.column import Array, TableColumn
 from vibroimpact.tables.file import File
 from vibroimpact.tables.headings import Headings, column_headings, is_time, listed_units
 from vibroimpact.tables.limits import few_columns
 from vibroimpact.tables.rows import Heading, Rows, split_rows
-from vibroimpact.tables.statements import Number, Statements, read_statements
+from vibroimpact.tables.statements import StatedNumber, Statements, read_statements
 from vibroimpact.tables.time_column import time_column, with_stamps
 from vibroimpact.tables.times import counts_samples, rises, spacing, unit_since_1970
 from vibroimpact.tables.units import Units, parted
@@ -35,7 +35,7 @@ class Table(NamedTuple):
     """A table and what the lines above it state."""
 
     file: File
-    columns: tuple[Column, ...]
+    columns: tuple[TableColumn, ...]
     lines: NDArray[np.int64]
     """Line of each row, starting from 0. With another arrangement than columns, of each value."""
     statements: Statements
@@ -90,13 +90,15 @@ def read_table(file: File) -> Table:
         arrangement, notes = _arrangement(file, values, lines, statements)
         columns, places = _rearranged(values, lines, arrangement)
         units = head.units if head and arrangement == "columns" else [_NO_UNITS] * len(columns)
-        table_columns = [Column("", unit, each) for unit, each in zip(units, columns, strict=True)]
+        table_columns = [
+            TableColumn("", unit, each) for unit, each in zip(units, columns, strict=True)
+        ]
     else:
         _check_widths(file, cells, lines, width)
         head = head or Headings([""] * width, [_NO_UNITS] * width, frozenset())
         listed = listed_units(headings, width)
         table_columns = [
-            Column(
+            TableColumn(
                 name,
                 _with_listed(units, listed[i]) if listed else units,
                 _values(file, name, [row[i] for row in cells], [row[i] for row in numbers], lines),
@@ -199,8 +201,8 @@ def _with_announced(stated: Statements, announced: list[tuple[int, float]]) -> S
         return stated
     count = max(range(len(announced)), key=lambda i: announced[i][1] == round(announced[i][1]))
     at, value = announced[count]
-    counts = (Number(value, at, f"{value:g}"), *stated.counts)
-    steps = [Number(one, where, f"{one:g}") for where, one in announced if one != value]
+    counts = (StatedNumber(value, at, f"{value:g}"), *stated.counts)
+    steps = [StatedNumber(one, where, f"{one:g}") for where, one in announced if one != value]
     return stated._replace(counts=counts, steps=(*steps, *stated.steps))
 
 

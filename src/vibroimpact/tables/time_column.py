@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vibroimpact.tables.column import Column
+from vibroimpact.tables.column import TableColumn
 from vibroimpact.tables.file import File
 from vibroimpact.tables.headings import is_index, is_time
 from vibroimpact.tables.rows import Heading
-from vibroimpact.tables.statements import Number, same
+from vibroimpact.tables.statements import StatedNumber, same
 from vibroimpact.tables.times import (
     IN_A_SECOND,
     rises,
@@ -24,8 +24,8 @@ from vibroimpact.tables.units import Units
 
 
 def with_stamps(
-    file: File, columns: list[Column], headings: Sequence[Heading], lines: list[int]
-) -> tuple[list[Column], int | None]:
+    file: File, columns: list[TableColumn], headings: Sequence[Heading], lines: list[int]
+) -> tuple[list[TableColumn], int | None]:
     """Return columns in which dates and times of day are times in s, and the number of the column.
 
     A column of dates beside one of times of day is joined with it.
@@ -59,7 +59,7 @@ def with_stamps(
             f"{first!r} begins dates that do not exist in one order of day and month; write dates "
             "as 2024-05-31, or pass step= (--step)",
         )
-    joined = Column(columns[at].name or "time", Units("s"), times)
+    joined = TableColumn(columns[at].name or "time", Units("s"), times)
     kept = [joined if i == at else one for i, one in enumerate(columns) if i not in days[:1]]
     return kept, next(i for i, c in enumerate(kept) if c is joined)
 
@@ -67,7 +67,9 @@ def with_stamps(
 _OTHER_AXES = re.compile(r"f(?:req(?:uency)?)?|hz|period", re.IGNORECASE)
 
 
-def time_column(columns: list[Column], step: Number | None, is_first: bool) -> int | None:
+def time_column(
+    columns: list[TableColumn], step: StatedNumber | None, is_first: bool
+) -> int | None:
     """Return the number of the column of times: one that the header names, or that rises evenly.
 
     If `is_first`, the arrangement of the table has its times in the first column.
@@ -97,7 +99,7 @@ def time_column(columns: list[Column], step: Number | None, is_first: bool) -> i
     return first if is_step and not is_index(columns[first].name) else None
 
 
-def _may_be_times(column: Column) -> bool:
+def _may_be_times(column: TableColumn) -> bool:
     unit = column.units.unit
     is_other = bool(_OTHER_AXES.fullmatch(column.name.partition("(")[0].strip()))
     return (
@@ -107,5 +109,5 @@ def _may_be_times(column: Column) -> bool:
     )
 
 
-def _is_even(column: Column) -> bool:
+def _is_even(column: TableColumn) -> bool:
     return spacing(np.asarray(column.values, dtype=float)).step is not None

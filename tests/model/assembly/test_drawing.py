@@ -8,7 +8,7 @@ import re
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.model.assembly.drawing import Moved, as_svg, drawing
+from vibroimpact.model.assembly.drawing import MotionFrame, as_svg, drawing
 
 _LETTER = 6.2
 """Width of a letter of 11 points in the widest usual font (DejaVu Sans), on average."""
@@ -59,8 +59,8 @@ def test_a_row_that_passes_a_stem_is_broken_and_not_the_stem() -> None:
 
 
 def test_texts_move_with_what_they_stand_between() -> None:
-    rest = drawing(ALL, Moved({}, {}, 100.0))
-    moved = drawing(ALL, Moved({"roof": 0.1}, {}, 100.0))
+    rest = drawing(ALL, MotionFrame({}, {}, 100.0))
+    moved = drawing(ALL, MotionFrame({"roof": 0.1}, {}, 100.0))
     shifts = {a.text: b.at[0] - a.at[0] for a, b in zip(rest.words, moved.words, strict=True)}
     assert shifts["roof\n300 t"] == pytest.approx(10.0)
     assert shifts["storey_2"] == pytest.approx(5.0)

@@ -71,7 +71,7 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class Moved:
+class MotionFrame:
     """Where the parts of an assembly are at one instant of a motion."""
 
     displacement: Mapping[str, float]
@@ -82,7 +82,7 @@ class Moved:
     """Points of the drawing per metre of displacements, deformations and gaps."""
 
 
-def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
+def drawing(assembly: Assembly, moved: MotionFrame | None = None) -> Drawing:
     """Return the drawing of an assembly: at rest, or at one instant of a motion.
 
     Every point of the drawing is a linear function of the displacements and deformations.
