@@ -113,7 +113,7 @@ def test_a_sheet_of_declared_rows():
         Row("force", "peak_force", words="{} at most", remark=lambda whole: f"of {whole}"),
         Row("range", ends, 3),
         Row("lowest", ends[0], like=ends),
-        Row("absent", "peak_acceleration", shown=lambda whole: whole == "another"),
+        Row("absent", "peak_acceleration", applies=lambda whole: whole == "another"),
         Row("own", lambda whole: whole, of=("eccentricity",)),
     )
     assert [line.rstrip() for line in as_text(sheet_of(data, rows, "one")).splitlines()] == [
