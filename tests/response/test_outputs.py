@@ -256,6 +256,35 @@ def test_outputs_of_several_masses_are_those_of_their_steady_motions(law):
             assert float(output) == pytest.approx(value, rel=1e-6)
 
 
+def share_of_contact(motion: xr.Dataset) -> float:
+    return float(vi.contacts(motion)["contact_duration_share"].sum())
+
+
+def test_a_contact_that_the_start_of_the_period_cuts_is_whole():
+    """Of what a motion says of itself, and of both ends of the only cycle in which it begins."""
+    own = {"touched": share_of_contact}
+    swept = vi.sweep(RIG, np.arange(2.0, 2.65, 0.05), "forward", outputs=own).isel(direction=0)
+    branch = vi.branch(RIG, vary={"frequency": (2.0, 2.3)}, outputs=own)
+    diagram = vi.bifurcation_diagram(
+        RIG, {"frequency": (2.0, 2.3)}, 7, directions=["up"], outputs=own
+    )
+    cut = 0
+    for frequency, share in zip(swept["frequency"].values, swept["touched"].values, strict=True):
+        at = swept.sel(frequency=frequency)
+        motion = vi.steady(RIG, at["section"], frequency=float(frequency))
+        touching = motion["touching"].any("stop").values
+        cut += bool(touching[0] and touching[-1])
+        assert share == pytest.approx(share_of_contact(motion), rel=1e-6)
+    assert cut > 3
+    assert float(diagram["touched"][0, -1]) == pytest.approx(
+        float(swept["touched"].sel(frequency=2.3, method="nearest")), rel=1e-6
+    )
+    point = branch.isel(point=int(np.argmin(abs(branch["frequency"].values - 2.25))))
+    orbit = vi.orbit(RIG, point["section"], frequency=float(point["frequency"]))
+    assert float(point["touched"]) == pytest.approx(share_of_contact(orbit), rel=1e-9)
+    assert share_of_contact(orbit) > 0.4
+
+
 def test_outputs_of_branches_of_several_masses():
     rig = pounding(LAWS["linear"])
     branch = vi.branch(rig, vary={"frequency": (1.65, 1.75)}, outputs={"push": OWN["push"]})

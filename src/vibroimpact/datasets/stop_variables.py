@@ -1,4 +1,7 @@
-"""Output variables that have a value for each stop (dim ``stop``), or that name a stop."""
+"""Output variables that have a value for each stop (dim ``stop``), or that name a stop.
+
+A ``long_name`` contains *the stop* or *the rigid stop*, of which labels make *the right stop*.
+"""
 
 from __future__ import annotations
 

@@ -6,17 +6,25 @@ contacts, orbits and branches), `fit_variables` (measurements and fits), `design
 ``stop``) or `assembly_variables`. `describe` of `datasets/description.py` raises an error if a
 dataset has an unknown one, and in tests if a variable has other dims.
 
-An output is an entry, and the place that computes it: `response/simulate.py` for histories; `sizes`
-of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, maps), and
-`_measured` of `stability/steady.py` (also for `coexisting_motions` and `basins`). Tables of the
-reference, dims and attributes follow from the entry. What Python computes from one motion is a
-module of `response/`, which follows the contacts of the motion again (example: `totals.py`); the
-first velocity of a contact is the closing speed of a law with a coefficient of restitution.
-`engine.observers` states what the engine needs.
+An output is an entry, and the place that computes it: `response/simulate.py` for histories;
+`measured` of `response/one_mass.py` and of `response/several_masses.py` for what the engine measures
+of steady motions, `sweep_dataset` of `response/sweep_dataset.py` for what follows from it, and
+`_measured` of `stability/steady.py` (also for `coexisting_motions` and `basins`). What Python
+computes from one motion is a module of `response/`, which follows the contacts of the motion again
+(example: `totals.py`); the first velocity of a contact is the closing speed of a law with a
+coefficient of restitution. What it computes so at each hold of a sweep is an option, for it takes
+ten times as long as the hold (example: `response/sweep_outputs.py`). `engine.observers` states what
+the engine needs.
+
+Dims and attributes follow from the entry; tables of the reference from it and from the call in
+`tests/arguments.py`, which has every option turned on. Enter a variable of stops whose value for
+all of them is their sum in `_SUMS` of `datasets/stops.py`.
 
 The command ``motion`` prints each number of `_measured` (by stop, if it has this dim); its rows are
 in `_ROWS` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
-`facts/assembly.py`. An entry of `_LINES` of `facts/largest.py` prints the largest value of sweeps.
+`facts/assembly.py`. An entry of `_LINES` of `facts/largest.py` prints the largest value of sweeps
+of one mass; for assemblies, `_WORDS` and `_largest` of `facts/assembly_sweep.py` do, and
+`draw_sweep` of `cli/assembly.py` draws.
 """
 
 from __future__ import annotations

@@ -10,7 +10,8 @@ decorator `finished` of `finish` fit its texts to the width of a column. It must
 print and without colour. Curves over the frequency are panels of the class `Drawn` of
 `resonance_panels`. List the function in the stub beside this file, in
 `docs/reference/how-to-draw.md`, in `tests/figures/every_figure.py` (texts that overlap or are cut
-off) and in an example of `gallery/`.
+off) and in an example of `gallery/`. A further panel of `resonance_curves` is a function as
+`outputs` of `resonance_panels`, and a case in `tests/figures/every_figure.py`.
 """
 
 from __future__ import annotations

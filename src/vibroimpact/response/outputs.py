@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.description import describe, noted
 from vibroimpact.datasets.stops import quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, shown
@@ -41,7 +42,8 @@ class Output:
           ``sign``. An example is
           ``"mean(isolator.damping*velocity**2)"``, the mean power of the dashpot. Of an assembly,
           the time histories have names such as ``velocity.roof`` and ``contact_force.moat_right``.
-        - A function receives the dataset of `simulate` over one period, and returns a number.
+        - A function receives the dataset of `simulate` over one period, and returns a number. It
+          may call functions such as `contacts` and `totals`.
     units
         Units of the result, such as ``"W"``. Default: ``"1"``, no units.
     long_name
@@ -153,7 +155,7 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
                 "as 'mean_power'"
             )
         if name in VARIABLES or name in _RESERVED or name.startswith("bifurcation_"):
-            raise InputError(f"{where}: results already have a variable {name!r}; use another name")
+            raise InputError(f"{where}: {name!r} is a variable of some results; use another name")
         try:
             one = entry if isinstance(entry, Output) else Output(entry)
             function = (
@@ -170,9 +172,16 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
 
 
 def computed(
-    outputs: tuple[NamedOutput, ...], rig: Rig, start: State | AssemblyState, cycles: int
+    outputs: tuple[NamedOutput, ...],
+    rig: Rig,
+    start: State | AssemblyState,
+    cycles: int,
+    *,
+    periodic: bool,
 ) -> tuple[float, ...]:
     """Compute own outputs of the motion of a rig from a state over some forcing cycles.
+
+    `periodic` says that these are one period: a contact that its start cuts is then whole.
 
     Raises
     ------
@@ -182,6 +191,8 @@ def computed(
     if not outputs:
         return ()
     motion = compute_history(rig, cycles, start, SAMPLES)
+    if periodic:
+        motion = describe(motion.assign(period=cycles), "vibroimpact.simulate", notes=noted(motion))
     return tuple(one.value(rig, motion) for one in outputs)
 
 

@@ -30,7 +30,9 @@ class _Hold(NamedTuple):
     phase: float
     state: _Array
 
-    def outputs(self, own: tuple[NamedOutput, ...], cycles: int) -> tuple[float, ...]:
+    def outputs(
+        self, own: tuple[NamedOutput, ...], cycles: int, periodic: bool
+    ) -> tuple[float, ...]:
         """Compute own outputs over some forcing cycles; NaN if there are none."""
         if not cycles:
             return (math.nan,) * len(own)
@@ -38,7 +40,7 @@ class _Hold(NamedTuple):
             amplitude=self.amplitude, frequency=self.frequency, phase=self.phase
         )
         start = engine_system(self.rig.system).state(self.state, self.phase)
-        return computed(own, Rig(self.rig.system, shaken), start, cycles)
+        return computed(own, Rig(self.rig.system, shaken), start, cycles, periodic=periodic)
 
 
 def add_sweep_outputs(
@@ -61,7 +63,7 @@ def add_sweep_outputs(
     phase
         Phase of the forcing at the section (rad).
     states : ndarray, shape (rig, direction, frequency, ...)
-        The engine's vectors at the ends of the holds.
+        States of the engine at the ends of the holds, without the clock of the forcing.
     window
         Cycles of a motion that does not settle.
     workers, progress
@@ -78,8 +80,8 @@ def add_sweep_outputs(
     steps = len(holds)
     # Functions travel to other processes with the task, which may be any code; items may not.
     values = each(
-        lambda item, _: item[0].outputs(own[item[0].number], item[1]),
-        list(zip(holds, lengths.tolist(), strict=True)),
+        lambda item, _: item[0].outputs(own[item[0].number], *item[1:]),
+        list(zip(holds, lengths.tolist(), (period > 0).tolist(), strict=True)),
         threads=workers,
         progress=progress and (lambda done, _: progress(steps + done, 2 * steps)),
     )

@@ -132,6 +132,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
             one.rig,
             one.section.family.layout.state(vector_of(one), one.section.family.phase),
             one.section.count,
+            periodic=True,
         )
         for one in orbits
     ]

@@ -75,8 +75,9 @@ def look_at(
         return seen
     motion = seen.held.motion
     start = engine_system(motion.rig.system).state(motion.state, motion.excitation.phase)
-    cycles = seen.kind.period or look.points
-    return seen._replace(outputs=computed(outputs, motion.rig, start, cycles))
+    period = seen.kind.period
+    values = computed(outputs, motion.rig, start, period or look.points, periodic=period > 0)
+    return seen._replace(outputs=values)
 
 
 def _looked_at(held: SettledPoint, look: SectionRecording) -> Seen:
