@@ -7,7 +7,7 @@ contacts, orbits and branches), `fit_variables` (measurements and fits), `design
 dataset has an unknown one, and in tests if a variable has other dims.
 
 An output is an entry, and the place that computes it: `response/simulate.py` for histories;
-`measured` of `response/one_mass.py` and of `response/several_masses.py` for what the engine measures
+`measured` of `response/one_mass.py` and `response/several_masses.py` for what the engine measures
 of steady motions, `sweep_dataset` of `response/sweep_dataset.py` for what follows from it, and
 `_measured` of `stability/steady.py` (also for `coexisting_motions` and `basins`). What Python
 computes from one motion is a module of `response/`, which follows the contacts of the motion again
