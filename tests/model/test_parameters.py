@@ -160,6 +160,23 @@ def test_sides_that_differ():
         parameter("relaxation_time", free).read(vi.Rig(free, SHAKEN))
 
 
+def test_one_value_does_not_set_numbers_of_different_units():
+    """1e6 would be N/m of one stop, and N/m^1.5 of the other."""
+    rig = vi.Rig(RIG.replace(right=vi.PowerBumper(1e8, 7.5e-3)), SHAKEN)
+    problem = r"units of stiffness, N/m and N/m\^1\.5.*use 'right\.stiffness' or 'left\.stiffness'"
+    with pytest.raises(vi.InputError, match=problem):
+        set_values(rig, {"stops.stiffness": 1e6})
+    with pytest.raises(vi.InputError, match=problem):
+        parameter("stops.stiffness", rig).vary(rig, 1e6)
+    assert set_values(rig, {"gap": "1 mm"}).oscillator.left.gap == 1e-3
+
+
+@pytest.mark.parametrize("path", ["right.kind", "isolator.kind"])
+def test_a_law_is_not_changed_by_its_kind_alone(path):
+    with pytest.raises(vi.InputError, match=rf"{path}: the law is \w+; to change it, write a rig"):
+        set_values(vi.Rig(RIG, SHAKEN), {path: "power"})
+
+
 @pytest.mark.parametrize("name", ["friction", "cubic", "decay", "dissipation", "left.mass"])
 def test_a_rig_without_it_is_refused_in_one_line(name):
     with pytest.raises(

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from vibroimpact.errors import (
@@ -148,9 +148,9 @@ class Parameter(NamedTuple):
             changed = rig.periodic.replace(**{self.name: value})
             keep_open = self.name != "frequency"
             return rig.with_parts(rig.system, changed, keep_open=keep_open)
-        places = _places(rig.system).get(self.name, [])
+        steps = _of_one_unit(self.name, rig.system)
         with errors_at(f"parameter: {self.name} at {value:.6g}: "):
-            return rig.with_parts(put(rig.system, {one.steps: value for one in places}))
+            return rig.with_parts(put(rig.system, dict.fromkeys(steps, value)))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""
@@ -336,8 +336,8 @@ def _with_derived(rig: Rig, name: str, value: Any) -> Rig:
 def _steps(rig: Rig, name: str) -> list[Steps]:
     """Return where a field stands. A path of all stops stands for those that have the field."""
     system = rig.system
-    if name in (places := _places(system)):
-        return [one.steps for one in places[name]]
+    if name in _places(system):
+        return _of_one_unit(name, system)
     if isinstance(system, Assembly):
         part, *rest = name.split(".")
         if part in (_LINKS, _STOPS) and len(rest) == 1:
@@ -355,8 +355,30 @@ def _steps(rig: Rig, name: str) -> list[Steps]:
             each: list[Steps] = [(side, first) for side in present or ("right", "left")]
             paths = [one for one in each if _exists(system, one)]
     if not paths or not all(_exists(system, one) for one in paths):
+        for *steps, last in paths:
+            if last == "kind" and (law := _part(system, steps)) is not None:
+                raise InputError(
+                    f"parameter: {name}: the law is {type(law).__name__}; to change it, write a "
+                    "rig with all numbers of another law"
+                )
         raise _unknown(name, rig, "parameter")
     return paths
+
+
+def _part(system: System, steps: Sequence[str]) -> Model | None:
+    """Return the model object at a place, if there is one."""
+    part: Any = system
+    for step in steps:
+        part = part.get(step) if isinstance(part, Mapping) else getattr(part, step, None)
+    return part if isinstance(part, Model) else None
+
+
+def _of_one_unit(name: str, system: System) -> list[Steps]:
+    """Return where the numbers of a path stand: one value cannot set those of different units."""
+    places = _places(system).get(name, [])
+    if len({one.accepts.quantity.symbol for one in places}) > 1:
+        raise _uneven(name, places)
+    return [one.steps for one in places]
 
 
 def _exists(part: Any, steps: Steps) -> bool:

@@ -235,6 +235,8 @@ def in_base_units(mass: float, length: float, time: float) -> Quantity:
 def quantity(symbol: str) -> Quantity:
     """Return the quantity with a SI unit, such as ``quantity("N s/m^3")``, for a field of a law.
 
+    Error messages have 2 of the unit as an example; `dataclasses.replace` sets another one.
+
     Raises
     ------
     ValueError

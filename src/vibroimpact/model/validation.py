@@ -117,8 +117,9 @@ def constructor(init: _Init) -> _Init:
 
     With this mark, pydantic builds a nested table field by field instead of calling ``__init__``.
     Therefore it knows the full path of an invalid field. pydantic puts the same mark on its own
-    ``__init__``.
+    ``__init__``, whose docstring is not true of ours.
     """
+    init.__doc__ = "Take the fields that the docstring of the class describes."
     init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
     return init
 

@@ -127,6 +127,12 @@ class FormulaStop(StopLaw):
     ``v`` its rate (m/s), and the other names are fields. The fields are the arguments of the
     class, in their order. For example::
 
+        from typing import Annotated, ClassVar
+
+        from vibroimpact.model.quantities import LENGTH, STIFFNESS, quantity
+        from vibroimpact.model.stops.law import FormulaStop
+        from vibroimpact.model.validation import Accepts
+
         class DragBumper(FormulaStop):
             kind: ClassVar[str] = "drag"
             formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
@@ -135,15 +141,21 @@ class FormulaStop(StopLaw):
             drag: Annotated[float, Accepts(quantity("N s/m^3"), minimum=0.0)]
             gap: Annotated[float, Accepts(LENGTH)]
 
-    A negative force counts as 0. What a formula may contain is described in `Law`.
+    A negative force counts as 0. What a formula may contain is described in `Law`. A field may have
+    the name of another law's with another unit; the path ``stops.NAME`` then sets equal laws only.
 
     With its entry in `STOPS`, study files, parameters by path, results, figures, the explorer and
     the tests of all laws have the law (``tests/model/test_registered_stop.py``). It needs no stored
-    states in ``tests/reference/``, for it is a `Law`, bit for bit. What does not follow:
+    states in ``tests/reference/``, for it is a `Law`, bit for bit; test what is special to it. What
+    does not follow:
 
-    - the name ``vibroimpact.DragBumper``: lines in ``model/__init__.py`` and ``__init__.pyi``;
-    - a page in ``docs/laws/`` and its line in ``index.md``;
+    - the name ``vibroimpact.DragBumper``: lines in ``model/__init__.py``, ``__init__.pyi``,
+      ``docs/reference/what-vibrates.md`` and the docstring of `Oscillator`;
+    - a page in ``docs/laws/`` and its two lines in ``index.md``, its kind in
+      ``docs/how-to/study-file.md``, and a line of the changes;
     - ``words``, if the explorer shall show another name than the kind.
+
+    Type checkers know the arguments if the class has an ``__init__`` as that of `PowerBumper`.
     """
 
     formula: ClassVar[str]
@@ -162,9 +174,15 @@ class FormulaStop(StopLaw):
     def __pydantic_init_subclass__(cls, **options: Any) -> None:
         """Show the fields as the arguments of the class."""
         super().__pydantic_init_subclass__(**options)
-        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        either, required = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.empty
         cls.__signature__ = inspect.Signature(
-            [inspect.Parameter(name, either) for name in in_order(cls)]
+            [
+                inspect.Parameter(
+                    name, either, default=required if field.is_required() else field.default
+                )
+                for name in in_order(cls)
+                for field in [cls.model_fields[name]]
+            ]
         )
 
     @model_validator(mode="after")
