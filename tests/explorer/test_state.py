@@ -100,7 +100,7 @@ def test_the_unit_of_an_amplitude_selects_the_excitation(text, of, size):
         ("stops.nonsense", "1", "nonsense"),
         ("__class__", "1", "is unknown; use"),
         ("right.gap.real", "1", "is unknown; use"),
-        ("isolator.kind", "friction", "is unknown; use"),
+        ("isolator.kind", "friction", "the law is Isolator; to change it"),
         ("stops.stiffness_ratio", "soft", "does not start with a number"),
     ],
 )
