@@ -41,7 +41,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 P = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
 
 
-class OneMass(types.CPointer):
+class OneMassPlan(types.CPointer):
     """The memory of a plan of a flow of one mass."""
 
 

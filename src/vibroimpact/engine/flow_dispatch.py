@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly import layout as assembly
 from vibroimpact.engine.assembly.curved import emitted
 from vibroimpact.engine.assembly.plan import write_plan
 from vibroimpact.engine.compiler import cgutils, intrinsic, models, overload, register_model, types
-from vibroimpact.engine.flow import OneMass
+from vibroimpact.engine.flow import OneMassPlan
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear.advance import advance_bumpers
@@ -190,7 +190,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     return bool(same and flow_class(rig) in (AnyStops, Curved, flow_class(other)))
 
 
-class PlanType(OneMass):
+class PlanType(OneMassPlan):
     """The memory of a plan of one mass, told apart by its flow."""
 
     def __init__(self, flow: type[OneMassFlow]) -> None:

@@ -105,8 +105,8 @@ def measure_motion(
         As in `sections.Schedule`.
     changes : int
         Whether the forcing changes at each section; else it is periodic.
-    state : ndarray, shape (motion.STATE,)
-        Where the motion starts; carried on in place.
+    state : ndarray
+        Where the motion starts, with the clock; carried on in place.
     first, last : int, float
         As in `sections.loop`.
     max_events : int

@@ -50,8 +50,8 @@ def follow(
         Bounds on |A_t| (m/s²) and on its slope (m/s³).
     lines : ndarray, shape (line, LINE)
         None longer than the interval.
-    state : ndarray, shape (motion.STATE,)
-        Where the motion starts; carried on in place.
+    state : ndarray
+        Where the motion starts, with the clock; carried on in place.
     first : int
         Line to begin with.
     samples : int

@@ -15,7 +15,7 @@ from vibroimpact.engine.event import LIMIT, TURN
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import growth
-from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
+from vibroimpact.engine.observers.growth import LEAST, NOTHING, Disturbances, orthonormalise
 from vibroimpact.engine.one_mass.disturbed_events import DISTURBANCE, MEMORY
 from vibroimpact.engine.state import (
     EVENT,
@@ -51,7 +51,7 @@ def free(damping=0.3, right=None, left=None, **options):
 
 def made_orthonormal(q, weights, shares, count):
     none = np.empty(0)
-    rows = Rows(q.ravel(), none, shares.ravel(), weights, none, count, DISTURBANCE)
+    rows = Disturbances(q.ravel(), none, shares.ravel(), weights, none, count, DISTURBANCE)
     return orthonormalise(rows, LEAST, NOTHING)
 
 

@@ -59,13 +59,7 @@ def phase_transition(plan: Vector, mode: int, t: float) -> tuple[float, float, f
 
 @kernel
 def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
-    """Carry disturbances (rows of q) through a stretch and the event that ends it.
-
-    Returns
-    -------
-    float
-        The integral of minus the divergence of (u, u̇), impacts included.
-    """
+    """See `motions.carry`."""
     before, _, event, step, arrival, after = stretch
     mode = before.mode
     uu, uv, vu, vv = phase_transition(plan, mode, step)

@@ -239,19 +239,7 @@ def sample_stretch(
     series: Vector,
     buffer: Vector,
 ) -> Cursor:
-    """The motion at n instants, not before where the cursor is; return where they end.
-
-    Parameters
-    ----------
-    before
-        The motion at the stretch's start, which is at the time t (s).
-    step, i
-        The first instant is the time i · step (s), and they are a step apart.
-    series, buffer
-        Written: the mode's own coordinate and its rate, the absolute acceleration as they are seen,
-        and what the isolator remembers if it does, each in its row of
-        `record_layout.samples`, the first in row 0.
-    """
+    """See `motions.sample_stretch`."""
     speeds, accelerations = VELOCITY * BLOCK, ACCELERATION * BLOCK
     rate = plan[cursor.table + RATE]
     about = -1  # the node that the series is about

@@ -55,7 +55,7 @@ _MANY, _ALIKE = 100, 1e-9
 by how much of the largest their logarithms may differ."""
 
 
-class Rows(NamedTuple):
+class Disturbances(NamedTuple):
     """Disturbances and their growth."""
 
     q: Vector
@@ -75,10 +75,10 @@ class Rows(NamedTuple):
 @kernel
 def rows_of(
     plan: Vector, q: Vector, work: Vector, weights: Vector, logarithms: Vector, count: int
-) -> Rows:
+) -> Disturbances:
     """Gather the memory of so many disturbances."""
     parts = flow.parts(plan)
-    return Rows(q, work, beyond(work, parts * parts), weights, logarithms, count, parts)
+    return Disturbances(q, work, beyond(work, parts * parts), weights, logarithms, count, parts)
 
 
 @kernel
@@ -102,7 +102,7 @@ def weigh_section(plan: Vector, state: Vector, weights: Vector) -> None:
 
 
 @kernel
-def _product(rows: Rows, i: int, j: int) -> float:
+def _product(rows: Disturbances, i: int, j: int) -> float:
     total = 0.0
     for k in range(rows.parts):
         total += rows.weights[k] * rows.q[i * rows.parts + k] * rows.q[j * rows.parts + k]
@@ -128,7 +128,7 @@ def _clear(q: Vector, i: int, parts: int) -> None:
 
 
 @kernel
-def orthonormalise(rows: Rows, least: float, nothing: float) -> int:
+def orthonormalise(rows: Disturbances, least: float, nothing: float) -> int:
     """Make rows orthonormal, each with those before it, and write their `shares`.
 
     The last share of a row is what is left of it, with a minus sign if that is less than the share
@@ -163,7 +163,7 @@ def orthonormalise(rows: Rows, least: float, nothing: float) -> int:
 
 
 @not_inlined
-def begin_rows(plan: Vector, state: Vector, rows: Rows, first: int, last: int) -> None:
+def begin_rows(plan: Vector, state: Vector, rows: Disturbances, first: int, last: int) -> None:
     """Let rows begin, from `first` to before `last`: each in a direction that the others leave."""
     q, parts = rows.q, rows.parts
     units = square_buffer()
@@ -183,7 +183,7 @@ def begin_rows(plan: Vector, state: Vector, rows: Rows, first: int, last: int) -
 
 
 @kernel
-def _join(rows: Rows, i: int) -> float:
+def _join(rows: Disturbances, i: int) -> float:
     """Make a new row orthonormal with those before it; return what is left of it."""
     for _ in range(2):  # the second time removes what rounding leaves
         for j in range(i):
@@ -196,7 +196,7 @@ def _join(rows: Rows, i: int) -> float:
 
 @kernel
 def grow(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, rows: Rows
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, rows: Disturbances
 ) -> None:
     """Carry disturbances through a stretch: an observer (see `event_loop.observed`).
 
@@ -215,7 +215,9 @@ def grow(
 
 
 @not_inlined
-def _grow_finely(plan: Vector, before: Vector, ended: Vector, after: Vector, rows: Rows) -> None:
+def _grow_finely(
+    plan: Vector, before: Vector, ended: Vector, after: Vector, rows: Disturbances
+) -> None:
     """As `grow`; the rows and their shares are what the whole stretch leaves."""
     size, n = rows.n * rows.parts, rows.n
     q, shares, logarithms = square_buffer(), square_buffer(), parts_buffer()
@@ -234,7 +236,7 @@ def _grow_finely(plan: Vector, before: Vector, ended: Vector, after: Vector, row
 
 
 @kernel
-def _vanished(rows: Rows) -> int:
+def _vanished(rows: Disturbances) -> int:
     """How many rows have vanished since the section; as many others are taken as vanished, too."""
     gone = 0
     for i in range(rows.n):
@@ -244,7 +246,7 @@ def _vanished(rows: Rows) -> int:
 
 
 @kernel
-def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
+def add_up(plan: Vector, after: Vector, rows: Disturbances) -> None:
     """Add the logarithms of what is left; what has vanished begins anew after the other rows."""
     q, parts, at = rows.q, rows.parts, 0
     for i in range(rows.n):
@@ -263,7 +265,7 @@ def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
 
 
 @not_inlined
-def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> bool:
+def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Disturbances) -> bool:
     """As `grow`, from the `start` of the rows on; return whether the pieces end as the stretch."""
     q, start, shares, _, logarithms, count, parts = rows
     here, there, part = state_buffer(), state_buffer(), stretch_buffer()
@@ -320,7 +322,7 @@ def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> 
 
 
 @kernel
-def _is_alike(rows: Rows, last: Vector) -> bool:
+def _is_alike(rows: Disturbances, last: Vector) -> bool:
     """Whether a piece does what the last one did; it becomes the last one."""
     most, alike = 0.0, True
     for i in range(rows.n):
@@ -333,7 +335,9 @@ def _is_alike(rows: Rows, last: Vector) -> bool:
 
 
 @not_inlined
-def _pass_event(plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Rows) -> None:
+def _pass_event(
+    plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Disturbances
+) -> None:
     """Carry rows through an event that comes at once."""
     q, start, shares, _, logarithms, count, parts = rows
     notes = parts_buffer()

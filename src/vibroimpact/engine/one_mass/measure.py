@@ -80,7 +80,7 @@ from vibroimpact.engine.stops.places import total_gap
 from vibroimpact.engine.stops.rigid import rigid
 
 
-class Range(NamedTuple):
+class Bounds(NamedTuple):
     """Between which values a quantity lies."""
 
     least: float
@@ -94,7 +94,7 @@ def column(stop: int, name: int) -> int:
 
 
 @kernel
-def widen_row(row: Vector, at: int, span: Range) -> None:
+def widen_row(row: Vector, at: int, span: Bounds) -> None:
     """Widen a range of a row, whose columns follow each other."""
     row[at], row[at + 1] = min(row[at], span.least), max(row[at + 1], span.most)
 
@@ -166,11 +166,11 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
     sign = direction(mode)
     x_least = x_most = coordinate(plan, before)
     a_least = a_most = sign * acceleration(plan, before)
-    carried = Range(a_least, a_least)
+    carried = Bounds(a_least, a_least)
     if plan[par.BASE] == 0.0:
         s, c = before.clock
         first = a_least + sign * value(plan, s, c)
-        carried = Range(first, first)
+        carried = Bounds(first, first)
     begun, at = row[LENGTH], 0.0
     cursor = begin(plan, before, step)
     while has_piece(plan, cursor):
@@ -193,7 +193,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
             for n in range(ORDER):
                 series[n] = series[n] * unit + shaking[n] * rate * rate
             least, most, _, _ = series_extremes(series, -0.5, high, carried.least, carried.most)
-            carried = Range(least, most)
+            carried = Bounds(least, most)
         part = Part(high, s, c)
         for stop in range(2):
             if mode >> stop & 1:
@@ -205,16 +205,16 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
                     )
         cursor = next_piece(plan, cursor)
     if plan[par.BASE] != 0.0:
-        carried = Range(a_least, a_most)
+        carried = Bounds(a_least, a_most)
     if max(-a_least, a_most) > max(-row[SYSTEM + A_LEAST], row[SYSTEM + A_MOST]):
         row[SYSTEM + A_TIME] = begun + at
     if sign < 0.0:
         a_least, a_most = -a_most, -a_least
-        carried = Range(-carried.most, -carried.least)
-    widen_row(row, SYSTEM + A_LEAST, Range(a_least, a_most))
+        carried = Bounds(-carried.most, -carried.least)
+    widen_row(row, SYSTEM + A_LEAST, Bounds(a_least, a_most))
     widen_row(row, CARRIED_LEAST, carried)
     low, top = displacement(plan, mode, x_least), displacement(plan, mode, x_most)
-    widen_row(row, SYSTEM + U_LEAST, Range(min(low, top), max(low, top)))
+    widen_row(row, SYSTEM + U_LEAST, Bounds(min(low, top), max(low, top)))
     for stop in range(2):
         if mode >> stop & 1:
             depth = x_most

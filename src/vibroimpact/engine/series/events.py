@@ -78,7 +78,7 @@ class Ends(NamedTuple):
     bend_z: float
 
 
-class Free(NamedTuple):
+class FreeFace(NamedTuple):
     """A stop's face that the mass may meet: what widens its clearance and how fast that fades.
 
     The memory is that of a time `since` before the step. `launched` says that the clearance
@@ -93,7 +93,7 @@ class Free(NamedTuple):
     released: bool
 
 
-FIXED = Free(0.0, 0.0, 0.0, False, False)
+FIXED = FreeFace(0.0, 0.0, 0.0, False, False)
 
 
 def _shift(centre: float) -> np.ndarray:
@@ -284,7 +284,7 @@ def first_in_step(plan: Vector, clearance: Clearance, launched: bool, released: 
 
 
 @not_inlined
-def searched(plan: Vector, line: Line, free: Free, g0: float, still: bool, h: float) -> float:
+def searched(plan: Vector, line: Line, free: FreeFace, g0: float, still: bool, h: float) -> float:
     """The first zero on the step by the certificate of the linear flow; NEVER if there is none.
 
     `still` says that g and its rate are exactly 0 at the beginning.
@@ -341,7 +341,7 @@ def zero_of(plan: Vector, line: Line, h: float, bend: float, span: Span) -> floa
 
 
 @inlined
-def met(plan: Vector, level: float, sign: float, free: Free, ends: Ends, faded: float) -> float:
+def met(plan: Vector, level: float, sign: float, free: FreeFace, ends: Ends, faded: float) -> float:
     """When the mass first meets a face at `level` + sign x + memory exp(−rate t) = 0.
 
     A memory below `faded` does not move where it is met.
@@ -365,7 +365,7 @@ def met(plan: Vector, level: float, sign: float, free: Free, ends: Ends, faded: 
 def met_at(
     plan: Vector,
     line: Line,
-    free: Free,
+    free: FreeFace,
     bend: float,
     jerk: float,
     gains: float,
@@ -397,4 +397,4 @@ def met_at(
         opens = memory * (0.632 * rate * h - 0.265)
         if memory * rate * rate > 1.5 * most and (rate * h < 1.0 or opens > 0.5 * most * h * h):
             return NEVER
-    return searched(plan, line, Free(memory, rate, 0.0, launched, released), g0, False, h)
+    return searched(plan, line, FreeFace(memory, rate, 0.0, launched, released), g0, False, h)

@@ -52,7 +52,7 @@ class Rooted(NamedTuple):
     single: bool
 
 
-class Moved(Series):
+class DepthRate(Series):
     """δ′, from the series of y = m δ, which is wᵐ: coefficient n needs w up to n + 1 only."""
 
     def __init__(self, y: Series, w: StateSeries, v: StateSeries, pace: Any, share: float) -> None:
@@ -148,7 +148,7 @@ def write_root_series(machine: Any, shape: Rooted) -> None:
     law, degree = LawNumbers(machine), at.DEGREE
     w, v, z, t = (StateSeries(machine, [one]) for one in (first, speed, kept, 0.0))
     y, pace = w**shape.root, w ** (shape.root - 1)
-    moved = Moved(y, w, v, pace, 1.0 / shape.root)
+    moved = DepthRate(y, w, v, pace, 1.0 / shape.root)
     turning, shaken = None, None
     if shape.single:
         squared = machine.load(at.SHAKES)  # of the unit of time

@@ -1,6 +1,6 @@
 """How the forces of a mode change with its state: series over the step in hand, from its formula.
 
-A `Varied` is a number or a series with its derivatives. The formulas of the laws, run with these,
+A `Dual` is a number or a series with its derivatives. The formulas of the laws, run with these,
 give the slopes by which disturbances grow, and what the stops push with.
 """
 
@@ -33,42 +33,42 @@ def times(one: Any, other: Any) -> Any:
     return one if isinstance(other, float) and other == 1.0 else one * other
 
 
-class Varied:
+class Dual:
     """A number or a series, and its derivatives by some quantities, by their names."""
 
     def __init__(self, value: Any, by: dict[str, Any]) -> None:
         self.value, self.by = value, by
 
-    def scaled(self, value: Any, slope: Any) -> Varied:
+    def scaled(self, value: Any, slope: Any) -> Dual:
         """Return a function of this, by its value and its derivative."""
-        return Varied(value, {name: times(slope, one) for name, one in self.by.items()})
+        return Dual(value, {name: times(slope, one) for name, one in self.by.items()})
 
-    def __add__(self, other: Any) -> Varied:
-        if not isinstance(other, Varied):
-            return Varied(self.value + other, self.by)
+    def __add__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.value + other, self.by)
         by = dict(self.by)
         for name, one in other.by.items():
             by[name] = by[name] + one if name in by else one
-        return Varied(self.value + other.value, by)
+        return Dual(self.value + other.value, by)
 
-    def __neg__(self) -> Varied:
+    def __neg__(self) -> Dual:
         return self.scaled(-self.value, -1.0)
 
-    def __sub__(self, other: Any) -> Varied:
-        difference: Varied = self + -other
+    def __sub__(self, other: Any) -> Dual:
+        difference: Dual = self + -other
         return difference
 
-    def __rsub__(self, other: Any) -> Varied:
-        difference: Varied = -self + other
+    def __rsub__(self, other: Any) -> Dual:
+        difference: Dual = -self + other
         return difference
 
-    def __mul__(self, other: Any) -> Varied:
-        if not isinstance(other, Varied):
+    def __mul__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
         mine = self.scaled(self.value * other.value, other.value)
-        return mine + Varied(0.0, other.scaled(0.0, self.value).by)
+        return mine + Dual(0.0, other.scaled(0.0, self.value).by)
 
-    def __pow__(self, exponent: int) -> Varied:
+    def __pow__(self, exponent: int) -> Dual:
         slope = times(self.value ** (exponent - 1), float(exponent))
         return self.scaled(self.value**exponent, slope)
 
@@ -76,18 +76,18 @@ class Varied:
 
 
 class Varying(LawNumbers):
-    """As `LawNumbers`, for formulas that are run with `Varied`."""
+    """As `LawNumbers`, for formulas that are run with `Dual`."""
 
     def exp(self, one: Any) -> Any:
         """Return e to the power of a number or a series."""
-        if not isinstance(one, Varied):
+        if not isinstance(one, Dual):
             return super().exp(one)
         value = super().exp(one.value)
         return one.scaled(value, value)
 
     def power(self, one: Any, exponent: Any) -> Any:
         """Return a to the power of b."""
-        if not isinstance(one, Varied):
+        if not isinstance(one, Dual):
             return super().power(one, exponent)
         lower = super().power(one.value, exponent - 1.0)
         return one.scaled(lower * one.value, lower * exponent)
@@ -98,7 +98,7 @@ class Varying(LawNumbers):
 
     def inverse(self, one: Any) -> Any:
         """Return 1 over a number or a series."""
-        if not isinstance(one, Varied):
+        if not isinstance(one, Dual):
             return super().inverse(one)
         value = super().inverse(one.value)
         return one.scaled(value, -(value * value))
@@ -113,7 +113,7 @@ class Varying(LawNumbers):
 
 
 class Steps(Varying):
-    """The numbers of a mode's forces in units of a step, and functions for `Varied`."""
+    """The numbers of a mode's forces in units of a step, and functions for `Dual`."""
 
     def __init__(self, machine: Any, h: Any, square: bool) -> None:
         super().__init__(machine)
@@ -125,7 +125,7 @@ class Steps(Varying):
             number = super().__getattr__(name)
             self._loaded[name] = number * self._powers[self._times.get(name, 0)]
             if name.endswith("_dissipation"):
-                self._loaded[name] = Varied(self._loaded[name], {name: 1.0})
+                self._loaded[name] = Dual(self._loaded[name], {name: 1.0})
         return self._loaded[name]
 
 
@@ -138,16 +138,14 @@ def slopes(machine: Any, shape: Shape) -> None:
     law = Steps(machine, machine.arguments[4], shape.laws[LAWS.index(drag)] == (2,))
     along = StateSeries(machine, [machine.load(at.X + n) for n in range(degree + 1)])
     rate = Rate(along)
-    x, v, z = Varied(along, {"x": 1.0}), Varied(rate, {"v": 1.0}), Varied(0.0, {})
+    x, v, z = Dual(along, {"x": 1.0}), Dual(rate, {"v": 1.0}), Dual(0.0, {})
     if shape.laws[LAWS.index(hysteresis)]:
-        z = Varied(
-            StateSeries(machine, [machine.load(at.Z + n) for n in range(degree)]), {"z": 1.0}
-        )
-    u = Varied(Shifted(along, along[0] + law.offset), x.by)
+        z = Dual(StateSeries(machine, [machine.load(at.Z + n) for n in range(degree)]), {"z": 1.0})
+    u = Dual(Shifted(along, along[0] + law.offset), x.by)
     stops = pushes(law, shape, x, v)
-    total = Varied(0.0, {"x": law.stiffness, "v": law.damping})
+    total = Dual(0.0, {"x": law.stiffness, "v": law.damping})
     for force in [*isolator(law, shape, u, v, z), *stops]:
-        total = total + Varied(0.0, force.by)
+        total = total + Dual(0.0, force.by)
     outputs = {at.BY_X: total.by["x"], at.BY_V: total.by["v"]}
     names = ("push", "other") if shape.push else ("other",)
     for name, push in zip(names, stops, strict=False):
@@ -179,7 +177,7 @@ def valued(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
     which, symbols = shape
     u, v, _, side, way, *_ = machine.arguments
     law = Varying(machine)
-    moved = Varied(u, {"u": 1.0}), Varied(v, {"v": 1.0})
+    moved = Dual(u, {"u": 1.0}), Dual(v, {"v": 1.0})
     force = program.evaluate(law, symbols, which, *moved, (side, way))
     per_mass = law.formula_number(par.OWN + par.OWN_PER_MASS)
     for i, one in enumerate((force.value, force.by.get("u", 0.0), force.by.get("v", 0.0))):

@@ -172,7 +172,7 @@ def slot_of(plan: Vector, laws: Laws, left: bool) -> int:
     return slot
 
 
-class Shaken(NamedTuple):
+class StepClock(NamedTuple):
     """A frame's sign, the clock at a step's beginning, and the unit of time that it is written in.
 
     `per_unit` is its inverse; both are powers of two.
@@ -185,7 +185,9 @@ class Shaken(NamedTuple):
 
 
 @inlined
-def excess_of(plan: Vector, by: Shaken, t: float, size: float, fine: float) -> tuple[float, Clock]:
+def excess_of(
+    plan: Vector, by: StepClock, t: float, size: float, fine: float
+) -> tuple[float, Clock]:
     """By how much a step is too long, if above 1; and the clock at its end, a time later.
 
     Its last terms must be small, and its end must obey the equation of motion: terms are blind to a
@@ -212,7 +214,7 @@ def lasts(plan: Vector, slot: int, h: float) -> float:
 
 @not_inlined
 def shortened(
-    plan: Vector, slot: int, excess: float, by: Shaken, h: float, size: float, fine: float
+    plan: Vector, slot: int, excess: float, by: StepClock, h: float, size: float, fine: float
 ) -> tuple[float, Clock]:
     """Shorten the step in hand until it is right; return its length and the clock there.
 
@@ -239,7 +241,7 @@ def certified_step(
     x: float,
     v: float,
     z: float,
-    by: Shaken,
+    by: StepClock,
     size: float,
     fine: float,
     longest: float,

@@ -114,13 +114,7 @@ def _is_disturbed(q: Vector, at: int) -> bool:
 
 @kernel
 def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
-    """Carry disturbances (rows of q) through a stretch and the event that ends it.
-
-    Returns
-    -------
-    float
-        The integral of minus the divergence of (u, u̇, z), impacts included.
-    """
+    """See `motions.carry`."""
     before, _, event, length, arrival, after = stretch
     mode = before.mode
     lost = 0.0

@@ -320,7 +320,7 @@ def sample_stretch(
     series: Vector,
     buffer: Vector,
 ) -> Cursor:
-    """The motion at n instants, as `linear.pieces.sample_stretch` says; `series` is not needed."""
+    """See `motions.sample_stretch`; `series` is not needed."""
     frame = frame_of(plan, before.mode)
     for j in range(n):
         tau = max((i + j) * step - t, 0.0)

@@ -13,14 +13,14 @@ from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import STRIDE, Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
-from vibroimpact.engine.series.step_control import Shaken, certified_step, number
+from vibroimpact.engine.series.step_control import StepClock, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
 from vibroimpact.engine.stops.places import overlapping
 from vibroimpact.engine.taylor.mode_forces import branch_of
 from vibroimpact.engine.taylor.pieces import at_coordinate, coordinate
 from vibroimpact.engine.taylor.step_events import (
-    Found,
+    FirstEvent,
     earlier,
     ends_of,
     starts_still,
@@ -161,10 +161,10 @@ def pressed_for(
     t = 0.0
     event, leaves = NEITHER, event_of(DETACHMENT, main_stop(mode))
     for _ in range(MOST):
-        shaken = Shaken(frame.sign, clock, by.unit, per_unit)
+        shaken = StepClock(frame.sign, clock, by.unit, per_unit)
         h, after = certified_step(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
         ends = ends_of(plan, h, w, v, z, hysteretic)
-        first = Found(LIMIT, NEVER)
+        first = FirstEvent(LIMIT, NEVER)
         first = earlier(first, leaves, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
         if by.chi != 0.0:
             line = Line(1.0, 0.0, by.chi, 0.0)

@@ -24,7 +24,7 @@ from vibroimpact.engine.series.events import (
     FIXED,
     NEVER,
     Ends,
-    Free,
+    FreeFace,
     Line,
     first_in_step,
     first_zero,
@@ -66,7 +66,7 @@ _FADED = 1e-18
 """A bumper's memory, as a share of the displacement, that does not move where it is met."""
 
 
-class Found(NamedTuple):
+class FirstEvent(NamedTuple):
     """The earliest event so far: what, and when (in units of time)."""
 
     event: int
@@ -74,9 +74,9 @@ class Found(NamedTuple):
 
 
 @inlined
-def earlier(first: Found, event: int, t: float) -> Found:
+def earlier(first: FirstEvent, event: int, t: float) -> FirstEvent:
     """The earlier of two events."""
-    return Found(event, t) if t < first.t else first
+    return FirstEvent(event, t) if t < first.t else first
 
 
 @inlined
@@ -121,8 +121,8 @@ def parts(plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float) -> f
 
 @kernel
 def earlier_release(
-    plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, first: Found
-) -> Found:
+    plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, first: FirstEvent
+) -> FirstEvent:
     """Take the end of a push into account: a depth falls to 0, or 1 + χ δ′ changes sign."""
     facing = facing_of(motion.mode, stop)
     level = 0.0
@@ -148,8 +148,8 @@ def earlier_release(
 
 @not_inlined
 def own_eases(
-    plan: Vector, stop: int, level: float, facing: float, ends: Ends, first: Found
-) -> Found:
+    plan: Vector, stop: int, level: float, facing: float, ends: Ends, first: FirstEvent
+) -> FirstEvent:
     """Take the moment into account at which a stop's own formula changes its sign."""
     way = facing * plan[WAY]
     run(plan, _OWN + STRIDE * (stop + 1) + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
@@ -181,8 +181,14 @@ def starts_still(plan: Vector, motion: Motion) -> bool:
 
 @kernel
 def turns(
-    plan: Vector, motion: Motion, ways: float, sign: float, ends: Ends, since: float, first: Found
-) -> Found:
+    plan: Vector,
+    motion: Motion,
+    ways: float,
+    sign: float,
+    ends: Ends,
+    since: float,
+    first: FirstEvent,
+) -> FirstEvent:
     """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
     line = Line(0.0, 0.0, ways, 0.0)
     if motion.v == 0.0 and since == 0.0:
@@ -210,8 +216,8 @@ def turns(
 
 @kernel
 def passes_centre(
-    plan: Vector, motion: Motion, offset: float, ends: Ends, since: float, first: Found
-) -> Found:
+    plan: Vector, motion: Motion, offset: float, ends: Ends, since: float, first: FirstEvent
+) -> FirstEvent:
     """Take the moment into account at which u changes its sign."""
     side = plan[SIDE]
     line = Line(side * offset, side, 0.0, 0.0)
@@ -224,10 +230,10 @@ def passes_centre(
 @inlined
 def search(
     plan: Vector, motion: Motion, frame: Frame, ways: float, ends: Ends, unit: float, since: float
-) -> Found:
+) -> FirstEvent:
     """The earliest event of the step in hand; free stops are as they were a time before."""
     mode, fresh = motion.mode, motion.fresh
-    first = Found(LIMIT, NEVER)
+    first = FirstEvent(LIMIT, NEVER)
     for stop in range(2):
         kind = plan[par.stop_at(stop) + par.KIND]
         if kind == par.ABSENT:
@@ -249,7 +255,7 @@ def search(
             memory = 0.0
         rate = rate_of(plan, stop) * unit
         just = fresh & BOTH == 1 << stop
-        free = Free(memory, rate, since, just, just and fresh & RELEASED != 0)
+        free = FreeFace(memory, rate, since, just, just and fresh & RELEASED != 0)
         size = abs(level) + abs(ends.x)
         t = met(plan, level, sign, free, ends, _FADED * size)
         first = earlier(first, event_of(CONTACT, stop), t)

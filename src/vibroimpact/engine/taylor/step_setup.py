@@ -12,7 +12,7 @@ from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
-from vibroimpact.engine.series.step_control import Shaken, certified_step, number, slot_of
+from vibroimpact.engine.series.step_control import StepClock, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
 from vibroimpact.engine.state import Clock
 from vibroimpact.engine.stops.curved import curved_stop, own_push
@@ -151,6 +151,6 @@ def stepped_on(
     The state is in the mode's own coordinates, velocity and length in units of time.
     """
     size = max(max(abs(x + ahead.offset), abs(x)), max(abs(v) * ahead.natural, ahead.shaken))
-    by = Shaken(ahead.sign, clock, ahead.unit, ahead.per_unit)
+    by = StepClock(ahead.sign, clock, ahead.unit, ahead.per_unit)
     most = min(longest, ahead.longest * ahead.per_unit)
     return certified_step(plan, ahead.slot, x, v, z, by, size, ahead.fine, most)

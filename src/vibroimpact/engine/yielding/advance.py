@@ -46,7 +46,7 @@ from vibroimpact.engine.yielding.monotone_motion import (
     FROM_BEHIND,
     LANDED,
     SOFTLY,
-    Leg,
+    MotionLimits,
 )
 from vibroimpact.engine.yielding.plan import table_of
 from vibroimpact.engine.yielding.table_walk import follow_leg
@@ -100,7 +100,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
         push_x, push_v, push_0 = -stiffness, -damping, stiffness * about
         if fresh & BOTH:
             start |= LANDED
-    leg = Leg(
+    leg = MotionLimits(
         ways,
         stop,
         yields,

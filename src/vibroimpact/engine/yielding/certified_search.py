@@ -21,7 +21,7 @@ from vibroimpact.engine.yielding.monotone_motion import (
     FROM_BEHIND,
     LANDED,
     SOFTLY,
-    Leg,
+    MotionLimits,
 )
 
 
@@ -29,7 +29,7 @@ from vibroimpact.engine.yielding.monotone_motion import (
 def careful(
     plan: Vector,
     table: int,
-    leg: Leg,
+    leg: MotionLimits,
     row: Row,
     start: int,
     memory: float,

@@ -14,7 +14,7 @@ ahead, or the one behind; that it has no acceleration yet; that it has just met 
 """
 
 
-class Leg(NamedTuple):
+class MotionLimits(NamedTuple):
     """What may end it, in a table's coordinate times `way`, by which the mass moves up.
 
     A free bumper stands at `stop` + memory · exp(−rate t), one behind at `behind` − …; the force

@@ -27,13 +27,13 @@ from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     FROM_BEHIND,
     PLAIN,
-    Leg,
+    MotionLimits,
 )
 
 
 @kernel
 def follow_leg(
-    plan: Vector, table: int, leg: Leg, row: Row, start: int, limit: float
+    plan: Vector, table: int, leg: MotionLimits, row: Row, start: int, limit: float
 ) -> tuple[int, float, Row]:
     """Follow a leg to its end or for the time `limit`.
 

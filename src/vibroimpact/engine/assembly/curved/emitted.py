@@ -27,7 +27,7 @@ _KNOWN = (op.ADD, op.SUBTRACT, op.NEGATE, op.MULTIPLY, op.SCALE, op.SHIFT)
 _POINTERS, _NUMBERS = 9, 2
 
 
-class Row(NamedTuple):
+class CurvedLink(NamedTuple):
     """A curved link: its ends, the nodes of s and of its force, its number among curved rows."""
 
     left: int
@@ -41,7 +41,7 @@ class Row(NamedTuple):
     """Node, what makes it, of which nodes."""
 
 
-class Shape(NamedTuple):
+class AssemblyShape(NamedTuple):
     """What the code is made for."""
 
     masses: int
@@ -51,7 +51,7 @@ class Shape(NamedTuple):
     stiffness: tuple[int, ...]
     damping: tuple[int, ...]
     """By how much the numbers of two masses differ, in a circle, that such a force couples."""
-    rows: tuple[Row, ...]
+    rows: tuple[CurvedLink, ...]
 
 
 class Memory(NamedTuple):
@@ -72,7 +72,7 @@ OFF, REACH = 16, 32
 """Where in `outputs`."""
 
 
-def shape_of(vector: Vector) -> Shape | None:
+def shape_of(vector: Vector) -> AssemblyShape | None:
     """Return what code is made for, or None if none is."""
     sizes = vector[[at.MASSES, at.STOPS, at.WAVES, at.ROW]].astype(int)
     n, count, waves, row = (int(one) for one in sizes)
@@ -101,9 +101,9 @@ def shape_of(vector: Vector) -> Shape | None:
             if operations is None:
                 return None
             s, force = (int(laws[f, one]) for one in (of.S_NODE, of.FORCE_NODE))
-            rows.append(Row(ends[0], ends[1], s, force, place, *operations))
+            rows.append(CurvedLink(ends[0], ends[1], s, force, place, *operations))
         place += int(laws[f, of.BEHAVIOUR] != 0)
-    shape = Shape(
+    shape = AssemblyShape(
         n,
         waves,
         row,
@@ -116,7 +116,7 @@ def shape_of(vector: Vector) -> Shape | None:
 
 
 def _operations(vector: Vector, law: Vector, f: int) -> Any:
-    """Return constants and operations of a law, as of a `Row`; None if they are not known here."""
+    """Return constants and operations of a law of a `CurvedLink`; None if they are unknown."""
     first, inputs, last = (int(law[one]) for one in (of.FIRST_OP, of.KNOWN, of.LAST_OP))
     begin = int(vector[at.TAPE])
     tape = vector[begin + first * of.OP_WIDTH : begin + last * of.OP_WIDTH]
@@ -141,7 +141,7 @@ def _differences(pairs: Any) -> tuple[int, ...]:
     return tuple(sorted({(int(q) - int(i)) % n for i, q in np.argwhere(pairs)}))
 
 
-def _work(shape: Shape) -> int:
+def _work(shape: AssemblyShape) -> int:
     order = of.CODE_ORDER
     linear = len(shape.stiffness) + len(shape.damping) + 2 + shape.waves + len(shape.rows)
     products = sum(one[1] == op.MULTIPLY for row in shape.rows for one in row.operations)
@@ -176,7 +176,7 @@ def _type() -> Any:
     return ir.FunctionType(ir.VoidType(), [REAL.as_pointer()] * _POINTERS + [REAL] * _NUMBERS)
 
 
-def _emitted(formula: Any, shape: Shape) -> ir.Module:
+def _emitted(formula: Any, shape: AssemblyShape) -> ir.Module:
     module = ir.Module(name=formula.__name__)
     function = ir.Function(module, _type(), name="kernel")
     builder = ir.IRBuilder(function.append_basic_block())
@@ -186,7 +186,7 @@ def _emitted(formula: Any, shape: Shape) -> ir.Module:
     return module
 
 
-def _width(shape: Shape) -> int:
+def _width(shape: AssemblyShape) -> int:
     """Numbers side by side: one for each mass, and up to a power of two."""
     return max(1 << (shape.masses - 1).bit_length(), 2)
 
@@ -201,7 +201,7 @@ def _linear(
     return total
 
 
-def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
+def expanded(shape: AssemblyShape, memory: Memory, unit: Any, omega: Any) -> None:
     """Write the series of a state in t / unit.
 
     `outputs` has what constant forces and deformations of pressed stops accelerate.
@@ -252,7 +252,7 @@ class _Forcing:
     """The forcing: its series, and what it adds to the accelerations of an order k > 0."""
 
     def __init__(
-        self, shape: Shape, memory: Memory, waves: list[Any], unit: Any, omega: Any
+        self, shape: AssemblyShape, memory: Memory, waves: list[Any], unit: Any, omega: Any
     ) -> None:
         n, width = shape.masses, _width(shape)
         column = 8 * 2 * (n + 1)
@@ -305,7 +305,7 @@ class _Forcing:
             self._series.store_lanes(place + 2 * i, pair[k % 2] * self._power(i, k))
 
 
-def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
+def ended(shape: AssemblyShape, memory: Memory, unit: Any, tau: Any) -> None:
     """Write the state at tau of the series in hand, and what is missing from the equations there.
 
     Into `outputs`: what the displacements have gained, by how much the velocities' growth is off,
@@ -375,7 +375,7 @@ class _Law:
     What depends on the newest coefficient of s does so by a slope: all else is known before.
     """
 
-    def __init__(self, row: Row, memory: Memory, s: Any) -> None:
+    def __init__(self, row: CurvedLink, memory: Memory, s: Any) -> None:
         self.row, self._nodes = row, memory.nodes
         nodes = memory.nodes
         values: dict[int, Any] = {row.s: s}
@@ -459,7 +459,7 @@ class _Law:
         return self._last[one] if one in self._last else self._node(one, k)
 
 
-def _relative(row: Row, values: Any, n: int) -> Any:
+def _relative(row: CurvedLink, values: Any, n: int) -> Any:
     if row.left == n:
         return values.lane(row.right)
     left = values.lane(row.left)

@@ -10,7 +10,7 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.tape import Written, shape_of
+from vibroimpact.engine.assembly.curved.tape import LawTape, shape_of
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series.kernels import pushed
 from vibroimpact.law_numbers import IsolatorNumbers, OwnStop, PowerLaw
@@ -95,7 +95,7 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         if stop.behaviour == of.FRICTION:
             continue
         push = pushed(np.array(stop.law), 0) if stop.behaviour in PUSHING else 0
-        made = Written(shape_of(np.array(stop.law), push), len(tape))
+        made = LawTape(shape_of(np.array(stop.law), push), len(tape))
         row[of.FIRST_OP], row[of.KNOWN] = len(tape), made.known
         tape += made.rows
         row[of.LAST_OP] = len(tape)

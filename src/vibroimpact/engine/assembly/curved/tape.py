@@ -8,7 +8,7 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.series import layout as series
 from vibroimpact.engine.series.code_generation import whole_power
 from vibroimpact.engine.series.laws import contact
-from vibroimpact.engine.series.slopes import Varied, Varying
+from vibroimpact.engine.series.slopes import Dual, Varying
 from vibroimpact.engine.series.step import LawNumbers, Shape, isolator, memory
 
 (
@@ -172,14 +172,14 @@ class VaryingSymbols(Varying):
 
     def __getattr__(self, name: str) -> Any:
         number = super().__getattr__(name)
-        return Varied(number, {"chi": 1.0}) if name == "push_dissipation" else number
+        return Dual(number, {"chi": 1.0}) if name == "push_dissipation" else number
 
     def tanh(self, one: Any) -> Any:
         """Return the hyperbolic tangent."""
         return one.scaled(*self._machine.tanh(one.value))
 
 
-class Written:
+class LawTape:
     """The operations of a law, and where what goes in and comes out stands."""
 
     def __init__(self, shape: Shape, begin: int) -> None:
@@ -196,7 +196,7 @@ class Written:
         key_nodes = (s, v, z, force, flow, raw)
         self.nodes = [-1 if one is None else places[one] for one in key_nodes]
         known = [len(tape.constants), len(tape.series)]
-        moved = (Varied(one, {name: 1.0}) for one, name in ((s, "s"), (v, "v"), (z, "z")))
+        moved = (Dual(one, {name: 1.0}) for one, name in ((s, "s"), (v, "v"), (z, "z")))
         force, flow = _run(VaryingSymbols(tape), shape, *moved)
         slopes = [force.by.get(name, 0.0) for name in ("s", "v", "z", "chi")]
         slopes += [0.0 if flow is None else flow.by.get(name, 0.0) for name in ("v", "z")]
