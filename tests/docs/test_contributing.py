@@ -54,6 +54,29 @@ def test_what_a_file_is_said_to_have_is_in_it():
         assert set(filter(None, names)) <= words, file
 
 
+def test_a_name_of_another_module_is_in_it():
+    """As `growth.grow`, in docstrings and comments: some module `growth` has the word."""
+    modules: dict[str, list[Path]] = {}
+    for file in PACKAGE.rglob("*.py"):
+        name = file.stem if file.stem != "__init__" else file.parent.name
+        modules.setdefault(name, []).append(file)
+    texts = {file: file.read_text(encoding="utf-8") for of in modules.values() for file in of}
+    texts[PACKAGE / "__init__.py"] = (PACKAGE / "__init__.pyi").read_text(encoding="utf-8")
+    checked, missing = 0, []
+    for file, text in texts.items():
+        for module, name in re.findall(r"(?<![`\w])`(?:\w+\.)*([a-z_]+)\.(\w+)`(?!`)", text):
+            if module in modules and name != "py":
+                words = {word for one in modules[module] for word in re.findall(r"\w+", texts[one])}
+                folders = {one.parent / name for one in modules[module] if one.stem == "__init__"}
+                checked += 1
+                if name not in words and not any(
+                    one.is_dir() or one.with_suffix(".py").exists() for one in folders
+                ):
+                    missing.append(f"{file.relative_to(PACKAGE)}: {module}.{name}")
+    assert checked > 100
+    assert missing == []
+
+
 def test_a_folder_of_the_package_has_its_row():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
     assert folders <= set(re.findall(r"^\| `(\w+)/` \|", PAGE, re.M))

@@ -101,8 +101,9 @@ def basins(
         Number of forcing cycles to wait for a periodic motion. A motion that has not settled by
         then is treated as not periodic.
     max_events
-        Largest number of contacts and detachments in one forcing cycle. When the motion from a
-        state reaches this number, its simulation stops and the state is given up.
+        Largest number of events (contacts, detachments, yielding and turning points) in one forcing
+        cycle. When the motion from a state reaches this number, its simulation stops and the state
+        is given up.
     threads
         Number of threads (default: one per processor).
     where

@@ -46,7 +46,7 @@ RESIDUALS = ("residual_displacement", "residual_swing")
 """In m: where the mass comes to rest, and half the width of its last swing about that place."""
 
 MAX_EVENTS = 10_000
-"""Contacts and detachments in a step of a record at which a motion is given up."""
+"""Events in a step of a record at which a motion is given up."""
 
 _AT_ONCE = 64
 """Scales of one call of the engine, at most."""

@@ -47,8 +47,8 @@ def seismic_response(
         Duration of free vibration after the record, in seconds or as a string such as ``"10s"``.
         Default: two natural periods of the mass with the smallest stiffness of the isolator.
     max_events
-        Largest number of contacts and detachments in one step of the record. When the motion
-        reaches this number, the computation is given up.
+        Largest number of events (contacts, detachments, yielding and turning points) in one step of
+        the record. When the motion reaches this number, the computation is given up.
     progress
         A `progress_bar`, or a function that is called in the calling thread with the number of
         completed steps of the record and the number of all steps.

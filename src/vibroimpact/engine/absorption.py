@@ -92,7 +92,7 @@ def caught(
     rig, amplitude, frequency, phase
         As in `batch.sweep`.
     max_cycles, max_events
-        Forcing cycles for each state; contacts and detachments in one at which it is given up.
+        Forcing cycles for each state; events in one at which it is given up.
     anew : bool
         Whether the states are those of `points`, put where they can be, rather than `states`.
     points : ndarray, shape (n, parts) or (0, parts)

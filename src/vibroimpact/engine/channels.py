@@ -1,6 +1,6 @@
 """What is observed of a motion: functions of time, each a power series on each piece of a stretch.
 
-    piece, force = piece_room(), series_room()
+    piece, force = piece_buffer(), series_buffer()
     more = flow.first_piece(plan, before, ended, piece)
     while more:
         order = flow.series(plan, before, piece, FORCE, stop, force)
@@ -76,6 +76,17 @@ _search = searching(_jet)
 
 
 @kernel
+def extremes(
+    series: Vector, order: int, least: float, most: float
+) -> tuple[float, float, float, float]:
+    """Exact extremes of a series on its piece, if beyond `least` and `most`; and at which τ.
+
+    A time τ on a piece is `ended[T] + piece[SINCE] + τ piece[LENGTH]` since the section.
+    """
+    return _search((series, order), 0.0, 1.0, least, most)  # type: ignore[no-any-return]
+
+
+@kernel
 def widen(series: Vector, order: int, span: Vector) -> None:
     """Widen a range, two numbers, by the values of a series on its piece: by exact extremes."""
-    span[0], span[1], _, _ = _search((series, order), 0.0, 1.0, span[0], span[1])
+    span[0], span[1], _, _ = extremes(series, order, span[0], span[1])

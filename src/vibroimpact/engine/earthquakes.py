@@ -158,7 +158,7 @@ def respond(
     state : ndarray, shape (`state.width`,)
         Where the motion starts.
     max_events : int
-        Contacts and detachments in one line at which the motion is given up.
+        Events in one line at which the motion is given up.
     everything : int
         Whether energies are found, which takes several times as long.
     block, blocks, small : float, int, float

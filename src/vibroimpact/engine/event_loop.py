@@ -70,8 +70,8 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
     Returns
     -------
     events
-        The number of contacts and detachments, or more than `max_events` if the cycle was not
-        finished.
+        The number of events, of which `event` lists the kinds, but for LIMIT and PASSED; or more
+        than `max_events` if the cycle was not finished.
     """
     return kernel(cycle)
 
@@ -82,7 +82,7 @@ def observed(observe: Any) -> Any:
     None if there is none.
 
     It is called for each stretch between two events. `before` and `after` are the states at its
-    ends, `ended` what is in `state.stretch_room`; it adds what it sees to its notes.
+    ends, `ended` what is in `state.stretch_buffer`; it adds what it sees to its notes.
     """
     return loop(flow.advance, states.load, states.put, states.finite, observe)
 

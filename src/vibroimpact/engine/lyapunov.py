@@ -72,7 +72,7 @@ def growth(
         nothing is watched.
     out : ndarray, shape (row, count + 1 + part)
         Written, a row a cycle from cycle `first`, or from cycle 0: the logarithm of how much each
-        of `count` disturbances has grown beside those before it (NaN: see `observers.grow`), the
+        of `count` disturbances has grown beside those before it (NaN: see `growth.grow`), the
         integral of the damping, and the state as a point of the section. A state has as many
         exponents as parts.
 

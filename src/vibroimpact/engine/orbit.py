@@ -206,7 +206,7 @@ def correct(
     count, mirror : int, bool
         Cycles that P goes over; or half cycles, each followed by the mirror.
     max_events : int
-        Contacts and detachments in one of them at which it gives up.
+        Events in one of them at which it gives up.
     scale : ndarray, shape (parts + 1,)
         Sizes by which the components are compared.
     tangent : ndarray, shape (parts + 1,)
@@ -320,7 +320,7 @@ def grazing_margin(
     cycles : int
         Forcing cycles to follow.
     max_events : int
-        Contacts and detachments in a cycle at which it gives up.
+        Events in a cycle at which it gives up.
     point, facts : ndarray
         The state at the section and its mode, as in `orbit.correct`.
 

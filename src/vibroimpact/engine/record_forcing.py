@@ -59,7 +59,7 @@ def follow(
     interval : float
         Between the record's samples (s).
     max_events : int
-        Contacts and detachments in one line at which the motion is given up.
+        Events in one line at which the motion is given up.
     out : ndarray, shape (record.SAMPLE, samples from line 0 to the end, and one for the end)
     events : ndarray, shape (capacity > max_events, record.EVENT)
 

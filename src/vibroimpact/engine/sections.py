@@ -58,7 +58,7 @@ class Leg(NamedTuple):
     length: float
     """To the next section, or to the end of the motion (s)."""
     max_events: int
-    """Contacts and detachments at which it is given up."""
+    """Events at which it is given up."""
 
 
 @kernel
@@ -129,7 +129,7 @@ def loop(watch: Any) -> Callable[..., tuple[int, int]]:
     first, last
         Number of the first section, and of that before which it ends; the last may be incomplete.
     max_events
-        Contacts and detachments after a section at which the motion is given up.
+        Events after a section at which the motion is given up.
     notes
         What is noted, passed on.
     progress : ndarray or None

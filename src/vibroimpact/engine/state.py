@@ -92,7 +92,7 @@ MEASURES = 3 * LARGEST + 8
 """Largest number of notes of `flow.extremes`, and of what `flow.measured` writes."""
 
 stretch_buffer = stack(4)
-"""Room for them."""
+"""Room for what stands of a stretch."""
 state_buffer = stack(FIRST + MOST_PARTS + BEHIND)
 """Room for a state."""
 parts_buffer = stack(LARGEST)

@@ -33,10 +33,11 @@ _ADVICE = {
         "slow transient from chaos, start `steady` from `section`"
     ),
     Status.TOO_MANY_EVENTS: (
-        "one forcing cycle or record step has more contacts and detachments than max_events "
-        "allows, or too many integration steps between them; if the mass chatters, give the stop "
-        "more damping or less restitution, or raise max_events in Python; if a damping_exponent "
-        "below 1 makes the motion too stiff near rest, raise the exponent"
+        "one forcing cycle or record step has more events (contacts, detachments, yielding and "
+        "turning points) than max_events allows, or too many integration steps between them; if "
+        "the mass chatters, give the stop more damping or less restitution, or raise max_events in "
+        "Python; if a damping_exponent below 1 makes the motion too stiff near rest, raise the "
+        "exponent"
     ),
     Status.TOO_MUCH_WORK: (
         "the fastest rate of the rig is too large to compute one forcing cycle or record step; "

@@ -36,7 +36,7 @@ MOST_CYCLES = 10_000
 """Largest period of an orbit, in forcing cycles."""
 
 MOST_EVENTS = 10_000_000
-"""Largest accepted ``max_events``: contacts and detachments in one forcing cycle."""
+"""Largest accepted ``max_events`` in one forcing cycle."""
 
 
 MOST_TAIL = 1e8
@@ -87,7 +87,7 @@ def function_of(value: object, field: str, what: str) -> Any:
 PositiveInt: TypeAlias = Annotated[int, whole]
 NonNegativeInt: TypeAlias = Annotated[int, partial(whole, least=0)]
 MaxEvents: TypeAlias = Annotated[int, partial(whole, most=MOST_EVENTS)]
-"""Largest number of contacts and detachments in one forcing cycle."""
+"""Largest number of events in one forcing cycle."""
 Period: TypeAlias = Annotated[int, partial(whole, most=MOST_CYCLES)]
 """Period of an orbit, in forcing cycles."""
 RandomStarts: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_STARTS)]

@@ -18,7 +18,7 @@ from vibroimpact.tasks.threads import Tally
 _Array = NDArray[np.float64]
 
 MAX_EVENTS = 10_000
-"""Contacts and releases in one forcing cycle at which a motion is given up, unless stated."""
+"""Events in one forcing cycle at which a motion is given up, unless stated."""
 
 
 class Settling(NamedTuple):

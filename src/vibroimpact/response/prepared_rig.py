@@ -105,7 +105,7 @@ class PreparedRig(NamedTuple):
         state
             Where the motion begins; it becomes the state at the end.
         max_events
-            Contacts and releases in one forcing cycle at which the motion is given up.
+            Events in one forcing cycle at which the motion is given up.
         transient, discard
             Cycles before the first row, without and with perturbations.
 

@@ -86,8 +86,9 @@ def simulate(
         Duration of free vibration after a record, in seconds or as a string such as ``"10s"``.
         Default: 0.
     max_events
-        Largest number of contacts and detachments in one forcing cycle, or in one step of a record.
-        When the motion reaches this number, the computation is given up.
+        Largest number of events (contacts, detachments, yielding and turning points) in one forcing
+        cycle, or in one step of a record. When the motion reaches this number, the computation is
+        given up.
     progress
         A `progress_bar`, or a function that is called from time to time with the number of
         completed cycles (or steps of the record) and the number of all of them.

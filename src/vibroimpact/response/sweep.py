@@ -163,8 +163,8 @@ def sweeps(
     window
         Number of forcing cycles over which a motion is measured if it did not become steady.
     max_events
-        Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
-        number, its computation is given up.
+        Largest number of events (contacts, detachments, yielding and turning points) in one forcing
+        cycle. When a motion reaches this number, its computation is given up.
     outputs
         Own outputs, as a mapping from names to formulas, functions, or `Output` objects, such as
         ``{"top_speed": "max(abs(velocity))"}``. Each is computed from one period of the motion at

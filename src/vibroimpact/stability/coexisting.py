@@ -206,7 +206,7 @@ def find_motions(
         drawn = random_state(rig, generator, size, excitation.angular_frequency)
         follow_start(f"random {number + 1}", nearest_state(rig, drawn))
     if kept and kept[0].settled_motion.symmetric:
-        for one in tuple(kept):  # `go` may add to them
+        for one in tuple(kept):  # `follow_start` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = image_of(one.settled_motion, max_events)
                 if image is not None:

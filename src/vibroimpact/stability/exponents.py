@@ -97,8 +97,8 @@ def lyapunov_exponents(
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the start, in rad.
     max_events
-        Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
-        number, its computation is given up.
+        Largest number of events (contacts, detachments, yielding and turning points) in one forcing
+        cycle. When a motion reaches this number, its computation is given up.
     threads
         Number of threads (default: one per processor).
     where

@@ -38,7 +38,7 @@ Rest
 Table of functions
     `table` has the functions of `engine.flow`: entries follow an assembly as they follow one mass.
     The motion between two calls is in the state, the last stretch in the plan, where observers
-    (`channels`) read it. A step that ends without an event is `motion.PASSED`.
+    (`channels`) read it. A step that ends without an event is `event.PASSED`.
 
 Limits: 52 stops, the bits of a mode in a float. Free masses that fly far away lose the digits of
 their links' deformations, which are differences of displacements.

@@ -61,12 +61,12 @@ def speeds(plan: Vector, f: int, values: Vector) -> float:
 
 @kernel
 def accelerations(
-    plan: Vector, u: Vector, v: Vector, w: Vector, deformation: Vector, moved: float, place: int
+    plan: Vector, u: Vector, v: Vector, w: Vector, deformation: Vector, constant: float, place: int
 ) -> None:
     """Write the accelerations of a state in the mode that was entered at a place of the plan.
 
     After them follow the forces of those pressed and of those resting. The place has room for
-    n + 1 accelerations; `moved` as in `series.expand`.
+    n + 1 accelerations; constant forces act `constant` times.
     """
     of = places(plan)
     n = of.masses
@@ -77,7 +77,7 @@ def accelerations(
     forces = beyond(plan, place + n + 1)
     for p in range(of.pressed):
         forces[p] = deformation[int(plan[of.pressed_list + p])]
-    drive(plan, of, here, w, forces, moved, place)
+    drive(plan, of, here, w, forces, constant, place)
     restrain(plan, of, beyond(forces, of.pressed), place)
 
 

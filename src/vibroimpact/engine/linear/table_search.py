@@ -4,7 +4,7 @@ The function q = weight_x·x + weight_v·x′ is linear in the state: the displa
 contact force in contact. It stays between two levels, each of which a relaxing bumper may still
 push outwards by memory·exp(−rate t). An interval on which the node values and a bound on the
 second derivative leave no room for a crossing costs a few products; a clean crossing is solved by
-`crossing.quick_root`; any other interval is searched by `crossing.first_root`
+`crossing.quick_root`; any other interval is searched by `roots.first_root`
 (docs/theory.md, section 3).
 """
 

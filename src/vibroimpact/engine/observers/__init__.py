@@ -2,10 +2,11 @@
 
 An observer is a kernel `(plan, before, ended, after, notes)`, called for each stretch of motion
 between two events. `before` and `after` are the states at its ends (a vector, see `state`), `ended`
-holds its length, its event and when it begins (`state.stretch_room`); it writes to its notes alone.
-What happens in between it reads from the channels of the stretch (`channels`), the same for one
-mass and several: series of displacements, velocities, accelerations, clearances, forces and
-deformations, with exact extremes (`channels.widen`, of a range that begins as +inf, -inf or 0, 0).
+holds its length, its event and when it begins (`state.stretch_buffer`); it writes to its notes
+alone. What happens in between it reads from the channels of the stretch (`channels`), the same for
+one mass and several: series of displacements, velocities, accelerations, clearances, forces and
+deformations, with exact extremes, and when (`channels.extremes`; `channels.widen` of a range that
+begins as +inf, -inf or 0, 0).
 A piece is touched as a whole or not at all: its clearance is 0 throughout, or positive inside. The
 deformation's slope is the closing speed only then; untouched it fades, at rigid stops it is 0.
 
@@ -15,7 +16,9 @@ deformation's slope is the closing speed only then; untouched it fades, at rigid
     def find_power(memory, rig, amplitude, frequency, phase, state, cycles, notes): ...
 
 `tests/engine/observers/test_power.py` is all that one takes: the kernel, its loop, an entry that
-starts with `opening.open_entry`, and a comparison with dense samples. numba compiles the entry when
+starts with `opening.open_entry`, the numbers of a rig and of a state, and a comparison with dense
+samples. Of one mass forces are per unit mass, and stop 0 is the right one. A file outside of
+`engine/` leaves the library of machine code in use. numba compiles the entry when
 it is first called, outside of the tests if `VIBROIMPACT_KERNELS=1` is set; the library of machine
 code has those of this package (`make kernels`). Without the compiler (`NUMBA_DISABLE_JIT=1`) a
 first try is quicker.

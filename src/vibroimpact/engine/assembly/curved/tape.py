@@ -95,7 +95,7 @@ _KNOWN = (Node, float, int)
 
 
 class Tape:
-    """The machine with which a formula is run, see `series.emit`."""
+    """The machine with which a formula is run, see `code_generation.Code`."""
 
     def __init__(self) -> None:
         self.constants: list[Node] = []
