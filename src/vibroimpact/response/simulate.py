@@ -100,7 +100,8 @@ def simulate(
         ``event`` counts the contacts and detachments, and the dim ``stop`` names the stops that the
         rig has: ``right`` and ``left``, or those of an assembly. ``deformation`` (m) of a stop is
         positive when it is compressed, ``clearance`` (m) is the distance from the mass to its face,
-        and ``touching`` states whether they touch. ``event_stop`` is the stop of each event.
+        and ``touching`` (of one mass) states whether they touch. ``event_stop`` is the stop of each
+        event.
         ``transmitted_force`` is the force that the isolator and the stops together exert on the
         base, positive to the right, without the infinite force of an impact on a rigid stop. To
         resume the motion, pass ``final_state`` as ``start``. If the computation was given up, the
@@ -116,8 +117,8 @@ def simulate(
     Raises
     ------
     InputError
-        If a value is invalid, or if an assembly has a law that is not accepted yet. Also if an
-        undamped mass without stops is shaken at resonance.
+        If a value is invalid, or if an assembly has too many parts. Also if an undamped mass
+        without stops is shaken at resonance.
     """
     rig = as_rig_of_any_masses(rig)
     if frequency is not None:
