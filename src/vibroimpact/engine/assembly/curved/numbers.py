@@ -144,6 +144,9 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
             continue
         plan[row + of.ACTIVE] = 1.0
         plan[row + _PER_UNIT], plan[row + _OWN_WEIGHT] = 1.0, 1.0
+        if behaviour == of.MEMORY_STOP:
+            plan[row + _OWN_WEIGHT] = 1.0 if mode >> f & 1 else 0.0
+            continue
         if behaviour in (of.POWER, of.OWN_STOP):
             touched = mode >> f & 1 == 1
             plan[row + of.ACTIVE] = 1.0 if touched else 0.0

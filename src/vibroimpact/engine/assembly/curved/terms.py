@@ -144,7 +144,9 @@ def _strain(plan: Vector, row: int, one: int, here: Vector, k: int, base: int) -
     if plan[one + at.KIND] == at.LINK:
         x, v = -x, -v
     elif k == 0:
-        x = max(x - plan[one + at.GAP], 0.0)
+        x -= plan[one + at.GAP]
+        if int(plan[row + of.BEHAVIOUR]) != of.MEMORY_STOP:
+            x = max(x, 0.0)
     plan[node(plan, row, of.S_NODE, base) + k] = x
     plan[node(plan, row, of.V_NODE, base) + k] = v
 
@@ -209,7 +211,7 @@ def expand_slopes(plan: Vector) -> None:
 @kernel
 def remembers(plan: Vector, row: int) -> bool:
     """Whether a row has a memory that the series carry."""
-    return int(plan[row + of.BEHAVIOUR]) in (of.HYSTERETIC, of.BILINEAR)
+    return int(plan[row + of.BEHAVIOUR]) in (of.HYSTERETIC, of.BILINEAR, of.MEMORY_STOP)
 
 
 @kernel
@@ -231,6 +233,18 @@ def _grow(plan: Vector, factor: float, j: int) -> None:
 
 
 _expand = expanding(_begin, push, _grow)
+
+
+@kernel
+def face_of(plan: Vector, f: int, z: float) -> float:
+    """Where the face of a free stop with this memory stands (m)."""
+    row, point = row_of(plan, f), int(plan[at.POINT])
+    for which in (of.S_NODE, of.V_NODE):
+        plan[node(plan, row, which, point)] = 0.0
+    plan[node(plan, row, of.Z_NODE, point)] = z
+    first(plan, row, int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP]), point)
+    face: float = plan[node(plan, row, of.RAW_NODE, point)]
+    return face
 
 
 @kernel
