@@ -24,6 +24,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
     expand_over,
     expand_slopes,
+    first,
     node,
     remembers,
     row_of,
@@ -65,7 +66,7 @@ def tie(plan: Vector, row: Vector) -> None:
                 row[2 * n + f] = closing(plan, f, row)
             elif plan[one + at.STOP_DAMPING] == 0.0:
                 row[2 * n + f] = 0.0
-        elif kind == at.PUSHING:
+        elif kind == at.PUSHING and not remembers(plan, law):
             if not touched or not plan[law + _DISSIPATION] < 0.0:
                 row[2 * n + f] = 0.0
         elif not remembers(plan, law) or _yields(plan, f, mode):
@@ -143,9 +144,13 @@ def _moved(plan: Vector, row: Vector, h: float) -> None:
                         push -= chi * plan[law + _CHI] / met * row[2 * n + f]
             if remembers(plan, law):
                 z = node(plan, law, of.Z_NODE, point)
-                push -= _convolved(plan, node(plan, law, of.BY_Z, base), z, 1, k)
+                sign = 1.0 if behaviour == of.MEMORY_STOP else -1.0
+                push += sign * _convolved(plan, node(plan, law, of.BY_Z, base), z, 1, k)
                 by_v = node(plan, law, of.FLOW_BY_V, base)
-                grown = -_difference(plan, by_v, left + v, right + v, width, k)
+                grown = sign * _difference(plan, by_v, left + v, right + v, width, k)
+                if behaviour == of.MEMORY_STOP:
+                    by_s = node(plan, law, of.FLOW_BY_S, base)
+                    grown += _difference(plan, by_s, left, right, width, k)
                 by_z = node(plan, law, of.FLOW_BY_Z, base)
                 plan[z + k + 1] = factor * (grown + _convolved(plan, by_z, z, 1, k))
             for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
@@ -182,6 +187,8 @@ def _too_long(plan: Vector, h: float) -> float:
         meets = plan[int(plan[at.COUPLING]) + f * count + f]
         by_s, by_v = node(plan, law, of.BY_S, base), node(plan, law, of.BY_V, base)
         own = max(abs(plan[by_v]) * meets, math.sqrt(abs(plan[by_s]) * meets))
+        if int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
+            own = max(own, abs(plan[node(plan, law, of.FLOW_BY_Z, base)]))
         most = max(most, own * h / _REACH)
         for k in range(last - 1, last + 1):
             term = (abs(plan[by_v + k]) + abs(plan[by_s + k]) * h) * meets * h
@@ -240,7 +247,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     here = int(plan[at.ROOM])
     there = here + 2 * (n + 1 + count)
     rates = there + 2 * (n + 1 + count)
-    jumps = kind_of(event) not in (LIMIT, GIVEN_UP)
+    jumps, by_z = kind_of(event) not in (LIMIT, GIVEN_UP), 0.0
     if jumps:
         accelerations_of_all(
             plan,
@@ -249,6 +256,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
             here,
         )
         _rates(plan, rates)
+        by_z = _face_by_memory(plan, stop_of(event))
     before = int(plan[at.STRETCH_MODE])
     close_stretch(plan)
     if not jumps:
@@ -258,7 +266,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     accelerations_of_all(plan, now, numbers, there)
     _rates(plan, rates + count)
     for i in range(rows):
-        _jump(plan, beyond(q, i * width), before, here, there, rates)
+        _jump(plan, beyond(q, i * width), before, here, there, rates, by_z)
     return lost
 
 
@@ -273,7 +281,19 @@ def _rates(plan: Vector, into: int) -> None:
 
 
 @kernel
-def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: int) -> None:
+def _face_by_memory(plan: Vector, f: int) -> float:
+    """The slope of a free stop's face by its memory, as the laws were evaluated last."""
+    law, point, slope = row_of(plan, f), int(plan[at.POINT]), 0.0
+    if int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
+        first(plan, law, int(plan[law + of.LAST_OP]), int(plan[law + of.LAST_SLOPE]), point)
+        slope = plan[node(plan, law, of.FACE_BY_Z, point)]
+    return slope
+
+
+@kernel
+def _jump(
+    plan: Vector, row: Vector, before: int, here: int, there: int, rates: int, by_z: float
+) -> None:
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     event, mode = int(plan[at.EVENT]), int(plan[at.MODE])
     f, happens = stop_of(event), kind_of(event)
@@ -286,6 +306,14 @@ def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: 
         for g in range(count):
             row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
         reflect(plan, row, beyond(plan, here), beyond(plan, there))
+    elif int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
+        recedes = by_z * plan[rates + f] - speed
+        if happens == CONTACT and recedes != 0.0:
+            late = (closing(plan, f, row) - by_z * row[2 * n + f]) / recedes
+            for i in range(n):
+                row[n + i] += (plan[here + i] - plan[there + i]) * late
+            for g in range(count):
+                row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
     elif kind == at.PUSHING and happens in (CONTACT, DETACHMENT):
         if speed != 0.0:
             late = -closing(plan, f, row) / speed
