@@ -13,7 +13,6 @@ from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.state import FIRST, FRESH, MODE
-from vibroimpact.engine.stops import memory_laws
 from vibroimpact.errors import InputError, shown
 from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model import Assembly, AssemblyState, State
@@ -148,7 +147,6 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
             speeds / (assembly.angular_frequency or math.inf),
         )
         said = None if state.touching is None else name in state.touching
-        face: float | None = None
         if law.rigid:
             d = state.deformation.get(name, 0.0)
             if d:
@@ -161,11 +159,10 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                 still = abs(closing) <= max(_AT_REST * speeds, TOUCHING * fastest, NEAR_ZERO)
                 touches = reach >= -max(slack, TOUCHING * farthest, NEAR_ZERO) and still
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
-        elif isinstance(made := law.engine_numbers(), MemoryStop):
+        elif isinstance(law.engine_numbers(), MemoryStop):
             d = state.deformation.get(name, 0.0)
-            face = memory_laws.LAWS[made.law].face(made.numbers, d)  # a number, of numbers
-            touches = reach > face + slack or (bool(said) and reach >= face - slack)
-            why = f"do not press it (distance {face - reach:g} m)"
+            touches = reach > d + slack or (bool(said) and reach >= d - slack)
+            why = f"do not press it (distance {d - reach:g} m)"
         elif (pair := law.spring_and_dashpot) is None:
             touches, d = _on_curved(state.deformation.get(name), reach, slack, said, closing)
             why = f"do not press it (distance {-reach:g} m)"
@@ -180,7 +177,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
         deformations[f] = d
         if touches:
             mode |= 1 << f
-        elif abs(reach - (d if face is None else face)) <= slack and (order := _parting(law, d, closing, speeds)):
+        elif abs(reach - d) <= slack and (order := _parting(law, d, closing, speeds)):
             zeros[f] = order
     rows = link_parts(assembly)
     vector = np.zeros(state_width(n, len(assembly.stops) + len(rows)))

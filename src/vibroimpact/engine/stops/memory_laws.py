@@ -1,6 +1,7 @@
-"""The laws of stops with a memory, each four formulas in `LAWS`.
+"""The laws of stops with a memory, each three formulas in `LAWS`.
 
-A memory z (m) is what the deformation d (m) and its rate v (m/s) do not determine. The engine runs
+The memory z (m) is the deformation at which the face of a free stop stands. While the stop is
+pressed, its force depends on z besides the deformation d (m) and its rate v (m/s). The engine runs
 the formulas with symbols (`assembly.curved.tape`), so that nothing is compiled for a new one.
 """
 
@@ -21,28 +22,28 @@ class MemoryLaw(NamedTuple):
     Attributes
     ----------
     force
-        Force (N) while the stop is pressed, of d, v and z; where it falls to zero, the bodies part.
+        Force (N) while the stop is pressed, of d, v and z. Bodies meet it at d = z, and part where
+        its force falls to zero, which must be at d = z, too.
     rate
         z′ while the stop is pressed, of d, v and z.
-    face
-        d of the free stop, of z: where the bodies meet it.
     free_rate
-        z′ while the stop is free, of z; 0 at z = 0, where the face is at rest, too.
+        z′ while the stop is free, of z; 0 at z = 0.
     """
 
     force: Callable[[Any, Any, Any, Any], Any]
     rate: Callable[[Any, Any, Any, Any], Any]
-    face: Callable[[Any, Any], Any]
     free_rate: Callable[[Any, Any], Any]
 
 
 SOLID = MemoryLaw(
-    force=lambda of, d, v, z: d * of[0] + (d - z) * of[1],
-    rate=lambda of, d, v, z: (d - z) * (of[1] / of[2]),
-    face=lambda of, z: z * (of[1] / (of[0] + of[1])),
+    force=lambda of, d, v, z: (d - z) * (of[0] + of[1]),
+    rate=lambda of, d, v, z: (d * (of[1] / (of[0] + of[1])) - z) * (of[1] / of[2]),
     free_rate=lambda of, z: z * (-of[0] * of[1] / ((of[0] + of[1]) * of[2])),
 )
-"""A spring beside a spring and a dashpot in series: k, k₁ and c; z is the end of the dashpot."""
+"""A spring beside a spring and a dashpot in series: k, k₁ and c.
+
+The end of the dashpot is at z (k + k₁)/k₁.
+"""
 
 LAWS: dict[str, MemoryLaw] = {"solid": SOLID}
 """By the name that a `MemoryStop` has."""

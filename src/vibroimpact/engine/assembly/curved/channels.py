@@ -76,7 +76,7 @@ def _of_memory(plan: Vector, channel: int, f: int, out: Vector) -> int:
     if channel == FORCE:
         added = node(plan, row, of.FORCE_NODE, base) if pressed else -1
     elif not pressed:
-        added = node(plan, row, of.RAW_NODE, base)
+        added = node(plan, row, of.Z_NODE, base)
     if channel == CLEARANCE and not pressed:
         relative(plan, f, 0, -1.0, out)
         out[0] += gap

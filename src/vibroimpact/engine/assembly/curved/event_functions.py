@@ -241,16 +241,16 @@ def _of_memory(
         first(plan, row, int(plan[row + of.LAST_OP]), int(plan[row + of.LAST_SLOPE]), base)
         most = abs(plan[node(plan, row, of.BY_S, base)]) * (speeds(plan, f, y) + abs(gap))
         most += abs(plan[node(plan, row, of.BY_V, base)]) * size
-        z = plan[node(plan, row, of.Z_NODE, base)]
-        most += abs(plan[node(plan, row, of.BY_Z, base)] * z)
+        z = node(plan, row, of.Z_NODE, base)
+        most += abs(plan[node(plan, row, of.BY_Z, base)] * plan[z])
         begins = fresh != 0.0 and abs(a[0]) <= _WRONG * most
         share: float = fall(plan, a, most, begins, end)
         return share
-    face = node(plan, row, of.RAW_NODE, base)
+    z = node(plan, row, of.Z_NODE, base)
     relative(plan, f, 0, -1.0, a)
     a[0] += gap
     for j in range(order + 1):
-        a[j] += plan[powers + j] * plan[face + j]
+        a[j] += plan[powers + j] * plan[z + j]
     if fresh == 0.0 and is_positive(a, order):
         return NONE
     to_bernstein(plan, a, beyond(plan, int(plan[at.BERNSTEIN])))

@@ -107,5 +107,5 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         tape += made.slope_rows
         row[of.SLOPE_CONSTANTS] = made.slope_constants
         row[of.LAST_SLOPE] = len(tape)
-        row[of.BY_S : of.FACE_BY_Z + 1] = made.slopes
+        row[of.BY_S : of.FLOW_BY_S + 1] = made.slopes
     return rows, np.array(tape).reshape(-1, of.OP_WIDTH)

@@ -32,12 +32,11 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP, MEMORY_STOP 
     FLOW_BY_V,
     FLOW_BY_Z,
     FLOW_BY_S,
-    FACE_BY_Z,
-) = range(22)
+) = range(21)
 """Of a row: the place of its two bits among those with branches (−1: it has none), its operations,
 of which the first are known (constants and what goes in), and the nodes of what goes in and comes
-out. Then come the operations of the slopes of the force, by s, s′, z and a stop's dissipation,
-of the memory's rate, and of the face of a free stop with a memory, which stands in RAW_NODE."""
+out. Then come the operations of the slopes of the force, by s, s′, z and a stop's dissipation, and
+of the memory's rate."""
 NAMES = 24
 """Then the numbers of its forces by name (`series.layout.NAMES`), as the mode has them."""
 NUMBERS = NAMES + len(series.NAMES)

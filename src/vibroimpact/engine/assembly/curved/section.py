@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly.curved.branches import (
     with_side,
     with_way,
 )
-from vibroimpact.engine.assembly.curved.terms import face_of, remembers, row_of
+from vibroimpact.engine.assembly.curved.terms import remembers, row_of
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
@@ -46,7 +46,7 @@ def place(plan: Vector, state: Vector) -> None:
             reach, remembered = closing(plan, f, u) - plan[one + at.GAP], deformation[f]
             is_kept = remembers(plan, row_of(plan, f))
             if is_kept:
-                reach -= face_of(plan, f, remembered)
+                reach -= remembered
             if reach > 0.0 or (mode >> f & 1 and reach >= 0.0):
                 touched |= 1 << f
             else:

@@ -24,7 +24,6 @@ from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
     expand_over,
     expand_slopes,
-    first,
     node,
     remembers,
     row_of,
@@ -247,7 +246,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     here = int(plan[at.ROOM])
     there = here + 2 * (n + 1 + count)
     rates = there + 2 * (n + 1 + count)
-    jumps, by_z = kind_of(event) not in (LIMIT, GIVEN_UP), 0.0
+    jumps = kind_of(event) not in (LIMIT, GIVEN_UP)
     if jumps:
         accelerations_of_all(
             plan,
@@ -256,7 +255,6 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
             here,
         )
         _rates(plan, rates)
-        by_z = _face_by_memory(plan, stop_of(event))
     before = int(plan[at.STRETCH_MODE])
     close_stretch(plan)
     if not jumps:
@@ -266,7 +264,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     accelerations_of_all(plan, now, numbers, there)
     _rates(plan, rates + count)
     for i in range(rows):
-        _jump(plan, beyond(q, i * width), before, here, there, rates, by_z)
+        _jump(plan, beyond(q, i * width), before, here, there, rates)
     return lost
 
 
@@ -281,19 +279,7 @@ def _rates(plan: Vector, into: int) -> None:
 
 
 @kernel
-def _face_by_memory(plan: Vector, f: int) -> float:
-    """The slope of a free stop's face by its memory, as the laws were evaluated last."""
-    law, point, slope = row_of(plan, f), int(plan[at.POINT]), 0.0
-    if int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
-        first(plan, law, int(plan[law + of.LAST_OP]), int(plan[law + of.LAST_SLOPE]), point)
-        slope = plan[node(plan, law, of.FACE_BY_Z, point)]
-    return slope
-
-
-@kernel
-def _jump(
-    plan: Vector, row: Vector, before: int, here: int, there: int, rates: int, by_z: float
-) -> None:
+def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: int) -> None:
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     event, mode = int(plan[at.EVENT]), int(plan[at.MODE])
     f, happens = stop_of(event), kind_of(event)
@@ -307,9 +293,9 @@ def _jump(
             row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
         reflect(plan, row, beyond(plan, here), beyond(plan, there))
     elif int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
-        recedes = by_z * plan[rates + f] - speed
+        recedes = plan[rates + f] - speed
         if happens == CONTACT and recedes != 0.0:
-            late = (closing(plan, f, row) - by_z * row[2 * n + f]) / recedes
+            late = (closing(plan, f, row) - row[2 * n + f]) / recedes
             for i in range(n):
                 row[n + i] += (plan[here + i] - plan[there + i]) * late
             for g in range(count):

@@ -187,10 +187,8 @@ class Written:
     def __init__(self, shape: Shape, begin: int) -> None:
         tape = Tape()
         s, v, z = (Node(tape, INPUT) for _ in range(3))
-        force, flow, face = _run(Symbols(tape), shape, s, v, z)
-        raw = None if face is None else tape.of(face, s)
-        if raw is None and isinstance(shape.push, tuple):
-            raw = force.of[0]
+        force, flow = _run(Symbols(tape), shape, s, v, z)
+        raw = force.of[0] if isinstance(shape.push, tuple) else None
         force = tape.of(force, s)
         nodes = [*tape.constants, *tape.series]
         self.known = len(tape.constants) + 3
@@ -201,10 +199,9 @@ class Written:
         self.nodes = [-1 if one is None else places[one] for one in key_nodes]
         known = [len(tape.constants), len(tape.series)]
         moved = (Varied(one, {name: 1.0}) for one, name in ((s, "s"), (v, "v"), (z, "z")))
-        force, flow, face = _run(VaryingSymbols(tape), shape, *moved)
+        force, flow = _run(VaryingSymbols(tape), shape, *moved)
         slopes = [force.by.get(name, 0.0) for name in ("s", "v", "z", "chi")]
         slopes += [0.0 if flow is None else flow.by.get(name, 0.0) for name in ("v", "z", "s")]
-        slopes.append(0.0 if face is None else face.by.get("z", 0.0))
         series = [tape.of(one, s) for one in slopes]
         more = [*tape.constants[known[0] :], *tape.series[known[1] :]]
         places |= {one: begin + len(nodes) + i for i, one in enumerate(more)}
@@ -213,10 +210,10 @@ class Written:
         self.slopes = [places[one] for one in series]
 
 
-def _run(law: Any, shape: Shape, s: Any, v: Any, z: Any) -> tuple[Any, Any, Any]:
-    """The force of a law, the rate of its memory, and the face of a free stop with one; or None.
+def _run(law: Any, shape: Shape, s: Any, v: Any, z: Any) -> tuple[Any, Any]:
+    """The force of a law, and the rate of its memory, or None.
 
-    Such a stop is followed while it is free, too.
+    A stop with a memory is followed while it is free, too.
     """
     if isinstance(shape.push, MemoryLaw):
         first = par.BUMPER + par.RESTITUTION
@@ -224,15 +221,14 @@ def _run(law: Any, shape: Shape, s: Any, v: Any, z: Any) -> tuple[Any, Any, Any]
         pressed = law.own_weight
         rate = shape.push.rate(numbers, s, v, z) * pressed
         rate = rate + shape.push.free_rate(numbers, z) * (1.0 - pressed)
-        force = shape.push.force(numbers, s, v, z) * pressed
-        return force, rate, shape.push.face(numbers, z)
+        return shape.push.force(numbers, s, v, z) * pressed, rate
     if shape.push:
-        return contact.force(law, "push", shape.push, s, v), None, None
+        return contact.force(law, "push", shape.push, s, v), None
     parts = isolator(law, shape, s, v, z)
     force = parts[0]
     for part in parts[1:]:
         force = force + part
-    return force, memory(law, shape, s, v, z), None
+    return force, memory(law, shape, s, v, z)
 
 
 def shape_of(vector: Any, push: Any) -> Shape:

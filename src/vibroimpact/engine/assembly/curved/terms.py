@@ -236,18 +236,6 @@ _expand = expanding(_begin, push, _grow)
 
 
 @kernel
-def face_of(plan: Vector, f: int, z: float) -> float:
-    """Where the face of a free stop with this memory stands (m)."""
-    row, point = row_of(plan, f), int(plan[at.POINT])
-    for which in (of.S_NODE, of.V_NODE):
-        plan[node(plan, row, which, point)] = 0.0
-    plan[node(plan, row, of.Z_NODE, point)] = z
-    first(plan, row, int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP]), point)
-    face: float = plan[node(plan, row, of.RAW_NODE, point)]
-    return face
-
-
-@kernel
 def coded(plan: Vector) -> bool:
     """Whether the series in this mode are written by code that was made for the assembly."""
     forbidden = int(plan[int(plan[at.CODE]) + 2]) - 1
