@@ -20,14 +20,14 @@ from scipy.integrate import solve_ivp
 
 import vibroimpact
 
-LAW = '''
+LAW = """
 LAWS: dict[str, MemoryLaw] = {
     "hardening": MemoryLaw(
         force=lambda of, d, v, z: d * of[0] + d**3 * of[1] + v * of[2],
-        rate=lambda of, d, v, z: v,
+        rate=None,
         free_rate=lambda of, z: (z * of[0] + z**3 * of[1]) * (-1.0 / of[2]),
     ),
-    '''
+    """
 
 CLASS = '''
 """A stop with a hardening spring and a dashpot."""

@@ -13,6 +13,7 @@ from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.state import FIRST, FRESH, MODE
+from vibroimpact.engine.stops import memory_laws
 from vibroimpact.errors import InputError, shown
 from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model import Assembly, AssemblyState, State
@@ -159,9 +160,11 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                 still = abs(closing) <= max(_AT_REST * speeds, TOUCHING * fastest, NEAR_ZERO)
                 touches = reach >= -max(slack, TOUCHING * farthest, NEAR_ZERO) and still
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
-        elif isinstance(law.engine_numbers(), MemoryStop):
+        elif isinstance(made := law.engine_numbers(), MemoryStop):
             d = state.deformation.get(name, 0.0)
             touches = reach > d + slack or (bool(said) and reach >= d - slack)
+            if touches and memory_laws.LAWS[made.law].rate is None:
+                d = reach
             why = f"do not press it (distance {d - reach:g} m)"
         elif (pair := law.spring_and_dashpot) is None:
             touches, d = _on_curved(state.deformation.get(name), reach, slack, said, closing)

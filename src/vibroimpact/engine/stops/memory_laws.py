@@ -25,13 +25,13 @@ class MemoryLaw(NamedTuple):
         Force (N) while the stop is pressed, of d, v and z. Bodies meet it at d = z, and part where
         its force falls to zero, which must be at d = z, too.
     rate
-        z′ while the stop is pressed, of d, v and z.
+        z′ while the stop is pressed, of d, v and z; None if z is then d itself.
     free_rate
         z′ while the stop is free, of z; 0 at z = 0.
     """
 
     force: Callable[[Any, Any, Any, Any], Any]
-    rate: Callable[[Any, Any, Any, Any], Any]
+    rate: Callable[[Any, Any, Any, Any], Any] | None
     free_rate: Callable[[Any, Any], Any]
 
 

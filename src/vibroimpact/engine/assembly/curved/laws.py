@@ -99,6 +99,7 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         push = pushed(np.array(stop.law), 0) if stop.behaviour in PUSHING else 0
         if stop.behaviour == of.MEMORY_STOP:
             push = list(memory_laws.LAWS.values())[int(stop.law[par.BUMPER + par.REBOUND])]
+            row[of.TIED] = push.rate is None
         made = Written(shape_of(np.array(stop.law), push), len(tape))
         row[of.FIRST_OP], row[of.KNOWN] = len(tape), made.known
         tape += made.rows

@@ -32,7 +32,9 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP, MEMORY_STOP 
     FLOW_BY_V,
     FLOW_BY_Z,
     FLOW_BY_S,
-) = range(21)
+    # Of a stop with a memory: whether this is the deformation while it is pressed.
+    TIED,
+) = range(22)
 """Of a row: the place of its two bits among those with branches (−1: it has none), its operations,
 of which the first are known (constants and what goes in), and the nodes of what goes in and comes
 out. Then come the operations of the slopes of the force, by s, s′, z and a stop's dissipation, and

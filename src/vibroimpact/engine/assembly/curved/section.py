@@ -52,6 +52,8 @@ def place(plan: Vector, state: Vector) -> None:
             else:
                 deformation[f] = 0.0
             deformation[f] = remembered if is_kept else max(deformation[f], 0.0)
+            if touched >> f & 1 and plan[row_of(plan, f) + of.TIED] != 0.0:
+                deformation[f] += reach
         elif kind == at.LINK:
             row = row_of(plan, f)
             if not remembers(plan, row):

@@ -65,6 +65,8 @@ def tie(plan: Vector, row: Vector) -> None:
                 row[2 * n + f] = closing(plan, f, row)
             elif plan[one + at.STOP_DAMPING] == 0.0:
                 row[2 * n + f] = 0.0
+        elif touched and plan[law + of.TIED] != 0.0:
+            row[2 * n + f] = closing(plan, f, row)
         elif kind == at.PUSHING and not remembers(plan, law):
             if not touched or not plan[law + _DISSIPATION] < 0.0:
                 row[2 * n + f] = 0.0

@@ -219,8 +219,8 @@ def _run(law: Any, shape: Shape, s: Any, v: Any, z: Any) -> tuple[Any, Any]:
         first = par.BUMPER + par.RESTITUTION
         numbers = [law.formula_number(first + i) for i in range(NUMBERS)]
         pressed = law.own_weight
-        rate = shape.push.rate(numbers, s, v, z) * pressed
-        rate = rate + shape.push.free_rate(numbers, z) * (1.0 - pressed)
+        rate = v if shape.push.rate is None else shape.push.rate(numbers, s, v, z)
+        rate = rate * pressed + shape.push.free_rate(numbers, z) * (1.0 - pressed)
         return shape.push.force(numbers, s, v, z) * pressed, rate
     if shape.push:
         return contact.force(law, "push", shape.push, s, v), None
