@@ -110,9 +110,27 @@ class Wall(NamedTuple):
     gap: float
 
 
+class MemoryStop(NamedTuple):
+    """A stop with a memory of its own.
+
+    Attributes
+    ----------
+    law
+        Name of its law in `engine.stops.memory_laws.LAWS`.
+    numbers
+        The numbers of the law.
+    gap
+        G0_j (m).
+    """
+
+    law: str
+    numbers: tuple[float, ...]
+    gap: float
+
+
 StopNumbers = tuple[Any, ...]
 """K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop with a constant
-coefficient of restitution; a `Wall`, a `PowerLaw` or an `OwnStop`."""
+coefficient of restitution; a `Wall`, a `PowerLaw`, an `OwnStop` or a `MemoryStop`."""
 
 
 class Program(NamedTuple):

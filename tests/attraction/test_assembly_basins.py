@@ -58,6 +58,22 @@ def test_basins_of_a_frame_lead_where_steady_does() -> None:
     np.testing.assert_array_equal(finer["basin"].values[::2, ::2], coarse["basin"].values)
 
 
+def test_basins_with_a_curved_link_are_the_oscillators() -> None:
+    isolator, stop = vi.PolynomialIsolator(200.0, 2.0, 4e3), vi.Bumper(1500.0, 20.0, 0.01)
+    shaking, span, speeds = vi.Harmonic(4.0, 2.5), (-0.02, 0.02), (-1.0, 1.0)
+    system = vi.Assembly(
+        {"m": 1.0},
+        {"isolator": vi.Link("ground", "m", isolator)},
+        {"right": vi.Link("m", "ground", stop), "left": vi.Link("ground", "m", stop)},
+    )
+    plane = {"displacement.m": span, "velocity.m": speeds}
+    several = vi.basins(vi.Rig(system, shaking), plane=plane, nodes=5)
+    one = vi.basins(
+        vi.Rig(vi.Oscillator(1.0, isolator, stop, stop), shaking), span, speeds, nodes=5
+    )
+    np.testing.assert_array_equal(several["basin"].values, one["basin"].values)
+
+
 def test_wrong_planes() -> None:
     rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 0.9))
     good = {"displacement.roof": (-0.1, 0.1), "velocity.roof": (-1.0, 1.0)}

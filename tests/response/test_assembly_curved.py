@@ -457,3 +457,21 @@ def test_samples_of_long_steps_near_the_limit_of_a_stiff_memory(exponent: float)
         u, v, t = (motion[name].values for name in ("displacement", "velocity", "time"))
         moved = np.diff(t) * 0.5 * (v[:, 1:] + v[:, :-1])
         assert np.abs(np.diff(u) - moved).max() < 1e-4 * np.abs(v).max() * t[1]
+
+
+@pytest.mark.parametrize(
+    "isolator", [vi.Isolator(100.0, 1.0), vi.BoucWenIsolator(300.0, 60.0, 3.0, 0.8)]
+)
+def test_a_pressed_stop_moves_a_mass_at_rest(isolator: Any) -> None:
+    """Where the shaking begins at 0, nothing else has a size from which a step has its length."""
+    stop, shaking = vi.PowerBumper(2e4, -0.001, 1.5), vi.Harmonic(5.0, 2.0)
+    system = vi.Assembly(
+        {"m": 1.0},
+        {"isolator": vi.Link("ground", "m", isolator)},
+        {"face": vi.Link("m", "ground", stop)},
+    )
+    several = vi.simulate(vi.Rig(system, shaking), 4, vi.State(displacement={"m": 0.0}), samples=0)
+    one = vi.simulate(
+        vi.Rig(vi.Oscillator(1.0, isolator, stop), shaking), 4, vi.State(0.0, 0.0), samples=0
+    )
+    np.testing.assert_allclose(several["final_state"][:2], one["final_state"][:2], rtol=1e-9)

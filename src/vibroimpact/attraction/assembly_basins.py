@@ -186,7 +186,7 @@ class _Search:
             return None
         deformation = parts[2 * self.states.masses :]
         vector = self.states.vector(parts, 0.0)
-        if (reaches < deformation).all() and not deformation.any():
+        if (reaches < deformation[: len(reaches)]).all() and not deformation.any():
             return vector
         return nearest_state(self.rig, vector)
 

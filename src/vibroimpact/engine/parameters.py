@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.compiler import register_jitable
 from vibroimpact.engine.jit import CHOSEN
-from vibroimpact.engine.stops import rebound
+from vibroimpact.engine.stops import memory_laws, rebound
 from vibroimpact.law_numbers import (
     OWN_NUMBERS,
     WORDS,
     IsolatorNumbers,
+    MemoryStop,
     OwnStop,
     PowerLaw,
     StopNumbers,
@@ -25,14 +26,14 @@ STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
 WIDTH = 12
-KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI or FORMULA
+KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA or MEMORY
 BUMPER_STIFFNESS = 1  # K_j/M, 1/s²
 BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
 RATE = 4  # K_j/C_j, 1/s: how fast the free bumper relaxes; infinite where C_j = 0
 EXPONENT = 5  # n of a force k δⁿ, with BUMPER_STIFFNESS in 1/(s² mⁿ⁻¹)
 DISSIPATION = 6  # χ, s/m, or below 0 minus the number d of χ = d / closing speed
-REBOUND = 7  # of a rigid stop: its law, and the numbers of that (`stops.rebound`)
+REBOUND = 7  # of a rigid stop, or one with a memory: its law, and the numbers of that
 RESTITUTION = 8  # the first of these
 LOAD = BUMPER + 2 * WIDTH  # constant force on the mass, F/M, m/s²
 BASE = LOAD + 1  # 1 if the base moves; 0 if it stands still and a force shakes the mass
@@ -74,6 +75,8 @@ MASSES = 3.0
 """In the place of FORCING: the vector is that of several masses (`assembly.layout`)."""
 
 ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+MEMORY = 6.0
+"""Only assemblies have such stops."""
 CURVED_STOPS = (POWER_LAW, JANKOWSKI, FORMULA)
 
 
@@ -171,6 +174,13 @@ def rig_vector(
         if isinstance(stop, Wall) or len(stop) == 2:
             place = at + REBOUND
             vector[at + KIND], vector[place : place + rebound.WIDTH] = RIGID, rebound.written(stop)
+            continue
+        if isinstance(stop, MemoryStop):
+            place = at + REBOUND
+            vector[at + KIND], vector[place : place + 1 + memory_laws.NUMBERS] = (
+                MEMORY,
+                memory_laws.written(stop),
+            )
             continue
         if isinstance(stop, PowerLaw):
             vector[at + KIND] = JANKOWSKI if stop.viscous else POWER_LAW

@@ -23,7 +23,7 @@ from vibroimpact.engine.assembly.plan import (
 )
 from vibroimpact.engine.state import LARGEST, MOST_PARTS
 from vibroimpact.errors import InputError
-from vibroimpact.law_numbers import OwnStop, PowerLaw
+from vibroimpact.law_numbers import MemoryStop, OwnStop, PowerLaw
 from vibroimpact.model import (
     Assembly,
     Periodic,
@@ -147,7 +147,7 @@ def _stop(part: PartNumbers) -> Stop:
     made = part.law.engine_numbers()
     if part.law.rigid:
         return Stop(part.left, part.right, part.gap, wall=made)
-    if isinstance(made, PowerLaw | OwnStop):
+    if isinstance(made, PowerLaw | OwnStop | MemoryStop):
         behaviour, row = stop_law(made)
         return Stop(part.left, part.right, part.gap, behaviour=behaviour, law=row)
     stiffness, damping, _ = made

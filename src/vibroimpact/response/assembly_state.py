@@ -13,8 +13,11 @@ from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.state import FIRST, FRESH, MODE
+from vibroimpact.engine.stops import memory_laws
 from vibroimpact.errors import InputError, shown
+from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model import Assembly, AssemblyState, State
+from vibroimpact.model.assembly.numbers import numbers
 from vibroimpact.model.assembly.state import NEAR_ZERO
 from vibroimpact.model.stops import Stop
 from vibroimpact.response.assembly_rig import link_parts
@@ -136,7 +139,8 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
     frequency = assembly.angular_frequency
     fastest = max(float(np.abs(v).max()), frequency * float(np.abs(u).max()))
     farthest = max(float(np.abs(u).max()), fastest / (frequency or math.inf))
-    for f, (name, stop) in enumerate(assembly.stops.items()):
+    parts = numbers(assembly).stops
+    for f, (part, (name, stop)) in enumerate(zip(parts, assembly.stops.items(), strict=True)):
         w, law = assembly.closing(stop), stop.stop
         reach, closing = float(w @ u) - law.gap, float(w @ v)
         speeds = float(np.abs(w) @ np.abs(v))
@@ -158,6 +162,12 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                 still = abs(closing) <= max(_AT_REST * speeds, TOUCHING * fastest, NEAR_ZERO)
                 touches = reach >= -max(slack, TOUCHING * farthest, NEAR_ZERO) and still
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
+        elif isinstance(made := part.law.engine_numbers(), MemoryStop):
+            d = state.deformation.get(name, 0.0)
+            touches = reach > d + slack or (bool(said) and reach >= d - slack)
+            if touches and memory_laws.LAWS[made.law].rate is None:
+                d = reach
+            why = f"do not press it (distance {d - reach:g} m)"
         elif (pair := law.spring_and_dashpot) is None:
             touches, d = _on_curved(state.deformation.get(name), reach, slack, said, closing)
             why = f"do not press it (distance {-reach:g} m)"

@@ -304,10 +304,11 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
     b = beyond(plan, int(plan[at.BERNSTEIN]))
     zeros = int(plan[int(plan[at.ZEROS]) + f])
     d, x, size = 0.0, 0.0, magnitude(plan, f, mode, b)
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     if mode >> f & 1 == 0:
         d = plan[int(plan[at.DEFORMATION]) + f]
-        if d > _NOTHING * size:
-            x = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RELAXATION] * length
+        if d > _NOTHING * size and plan[one + at.KIND] == at.KELVIN_VOIGT:
+            x = plan[one + at.RELAXATION] * length
         else:
             d = 0.0
     if zeros == 0 and b[0] + d <= 0.0 and plan[at.TABLE_NOW] > 0.0:

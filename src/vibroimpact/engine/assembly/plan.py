@@ -18,6 +18,7 @@ from vibroimpact.engine.assembly.curved.laws import (
     initial_stiffness,
     written,
 )
+from vibroimpact.engine.assembly.curved.layout import MEMORY_STOP
 from vibroimpact.engine.assembly.mode import RATES_KEPT
 from vibroimpact.engine.assembly.rates import rates_size
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
@@ -386,8 +387,8 @@ def _stop(stop: Stop, n: int, acts: Vector, partner: float) -> list[float]:
 
 
 def _relaxation(stop: Stop) -> float:
-    if stop.kind == at.LINK:
-        return 0.0  # its memory stays
+    if stop.kind == at.LINK or stop.behaviour == MEMORY_STOP:
+        return 0.0  # its memory has a series
     return stop.stiffness / stop.damping if stop.damping > 0.0 and stop.kind == 0 else inf
 
 

@@ -65,6 +65,30 @@ def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
     return order
 
 
+@kernel
+def _of_memory(plan: Vector, channel: int, f: int, out: Vector) -> int:
+    """A channel of a stop with a memory, which has a face while it is free."""
+    row, order, base = row_of(plan, f), int(plan[at.ORDER]), int(plan[at.NODES])
+    pressed = int(plan[at.MODE]) >> f & 1 == 1
+    gap, added = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.GAP], -1
+    for j in range(order + 1):
+        out[j] = 0.0
+    if channel == FORCE:
+        added = node(plan, row, of.FORCE_NODE, base) if pressed else -1
+    elif not pressed:
+        added = node(plan, row, of.Z_NODE, base)
+    if channel == CLEARANCE and not pressed:
+        relative(plan, f, 0, -1.0, out)
+        out[0] += gap
+    elif channel == DEFORMATION and pressed:
+        relative(plan, f, 0, 1.0, out)
+        out[0] -= gap
+    if added >= 0:
+        for j in range(order + 1):
+            out[j] += plan[added + j]
+    return order
+
+
 @not_inlined
 def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
@@ -75,6 +99,8 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
         if kind == at.LINK:
             order = _of_link(plan, channel, index, out)
             return order
+        if kind == at.PUSHING and remembers(plan, row_of(plan, index)):
+            return _of_memory(plan, channel, index, out)
         if kind == at.PUSHING and int(plan[at.MODE]) >> index & 1:
             for j in range(order + 1):
                 out[j] = 0.0

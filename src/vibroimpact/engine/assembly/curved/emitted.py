@@ -94,6 +94,8 @@ def shape_of(vector: Vector) -> AssemblyShape | None:
             for end in ends:
                 if end < n:
                     stiff[response[f], end] = damped[response[f], end] = True
+        elif laws[f, of.BEHAVIOUR] == of.MEMORY_STOP:
+            return None
         elif kind == at.LINK:
             if laws[f, of.BEHAVIOUR] != of.SMOOTH:
                 return None

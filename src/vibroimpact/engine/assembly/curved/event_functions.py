@@ -8,7 +8,7 @@ from vibroimpact.engine.assembly.advance import first_event, is_positive, order_
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.emitted import REACH
-from vibroimpact.engine.assembly.curved.terms import coded, node, row_of
+from vibroimpact.engine.assembly.curved.terms import coded, first, node, row_of
 from vibroimpact.engine.assembly.events import speeds
 from vibroimpact.engine.assembly.roots import NONE, first_fall
 from vibroimpact.engine.assembly.series import to_bernstein, watched_series
@@ -228,6 +228,37 @@ def _of_stop(
 
 
 @kernel
+def _of_memory(
+    plan: Vector, f: int, row: int, mode: int, length: float, size: float, end: float, a: Vector
+) -> float:
+    """When a stop with a memory lets its bodies go, or they meet its free face."""
+    powers, order, base = int(plan[at.POWERS]), int(plan[at.ORDER]), int(plan[at.NODES])
+    fresh, y = plan[int(plan[at.ZEROS]) + f], beyond(plan, int(plan[at.Y]))
+    gap = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.GAP]
+    if mode >> f & 1:
+        _times(plan, node(plan, row, of.FORCE_NODE, base), 1.0, a)
+        # Where it is zero its terms are not, and by these it is rounded.
+        first(plan, row, int(plan[row + of.LAST_OP]), int(plan[row + of.LAST_SLOPE]), base)
+        most = abs(plan[node(plan, row, of.BY_S, base)]) * (speeds(plan, f, y) + abs(gap))
+        most += abs(plan[node(plan, row, of.BY_V, base)]) * size
+        z = node(plan, row, of.Z_NODE, base)
+        most += abs(plan[node(plan, row, of.BY_Z, base)] * plan[z])
+        begins = fresh != 0.0 and abs(a[0]) <= _WRONG * most
+        share: float = fall(plan, a, most, begins, end)
+        return share
+    z = node(plan, row, of.Z_NODE, base)
+    relative(plan, f, 0, -1.0, a)
+    a[0] += gap
+    for j in range(order + 1):
+        a[j] += plan[powers + j] * plan[z + j]
+    if fresh == 0.0 and is_positive(a, order):
+        return NONE
+    to_bernstein(plan, a, beyond(plan, int(plan[at.BERNSTEIN])))
+    share = first_event(plan, f, mode, length, end)
+    return share
+
+
+@kernel
 def _stays_clear(plan: Vector, f: int) -> bool:
     """Whether a free stop is farther away than its bodies can move, by the code of a step's end."""
     if not coded(plan):
@@ -249,6 +280,8 @@ def first_of(
     if plan[one + at.KIND] == at.LINK:
         event: tuple[float, int] = _of_link(plan, f, row, mode, size, end, a)
         return event
+    if int(plan[row + of.BEHAVIOUR]) == of.MEMORY_STOP:
+        return _of_memory(plan, f, row, mode, length, size, end, a), 0
     if plan[one + at.KIND] == at.PUSHING and mode >> f & 1:
         event = _of_stop(plan, f, row, mode, length, size, end, a)
         return event

@@ -271,6 +271,12 @@ def switch(
     zeros = beyond(plan, int(plan[at.ZEROS]))
     if kind == at.LINK:
         return _turned(plan, mode, f, which, y, deformation), TURN
+    if int(plan[row_of(plan, f) + of.BEHAVIOUR]) == of.MEMORY_STOP:
+        zeros[f] = 1.0
+        if mode >> f & 1:
+            return mode & ~(1 << f), DETACHMENT
+        let_part(plan, mode, f)
+        return mode | 1 << f, CONTACT
     if kind == at.PUSHING:
         if not mode >> f & 1:
             deformation[f] = abs(closing(plan, f, beyond(y, int(plan[at.MASSES]))))

@@ -13,9 +13,10 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.tape import LawTape, shape_of
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series.kernels import pushed
-from vibroimpact.law_numbers import IsolatorNumbers, OwnStop, PowerLaw
+from vibroimpact.engine.stops import memory_laws
+from vibroimpact.law_numbers import IsolatorNumbers, MemoryStop, OwnStop, PowerLaw
 
-PUSHING = (of.POWER, of.OWN_STOP)
+PUSHING = (of.POWER, of.OWN_STOP, of.MEMORY_STOP)
 """Behaviours of stops."""
 BRANCHING = (of.HYSTERETIC, of.BILINEAR, of.DRAG, of.FRICTION, of.OWN)
 """Behaviours whose force has branches."""
@@ -63,10 +64,11 @@ def link_rows(numbers: IsolatorNumbers, damping: float) -> list[tuple[int, tuple
     ]
 
 
-def stop_law(numbers: PowerLaw | OwnStop) -> tuple[int, tuple[float, ...]]:
+def stop_law(numbers: PowerLaw | OwnStop | MemoryStop) -> tuple[int, tuple[float, ...]]:
     """Return behaviour and numbers of a stop that pushes."""
     vector = rig_vector(1.0, 0.0, 0.0, numbers, None)
-    return of.POWER if isinstance(numbers, PowerLaw) else of.OWN_STOP, tuple(vector.tolist())
+    behaviour = {PowerLaw: of.POWER, OwnStop: of.OWN_STOP, MemoryStop: of.MEMORY_STOP}
+    return behaviour[type(numbers)], tuple(vector.tolist())
 
 
 def initial_stiffness(stop: Any) -> float:
@@ -95,6 +97,9 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         if stop.behaviour == of.FRICTION:
             continue
         push = pushed(np.array(stop.law), 0) if stop.behaviour in PUSHING else 0
+        if stop.behaviour == of.MEMORY_STOP:
+            push = list(memory_laws.LAWS.values())[int(stop.law[par.BUMPER + par.REBOUND])]
+            row[of.TIED] = push.rate is None
         made = LawTape(shape_of(np.array(stop.law), push), len(tape))
         row[of.FIRST_OP], row[of.KNOWN] = len(tape), made.known
         tape += made.rows
@@ -103,5 +108,5 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         tape += made.slope_rows
         row[of.SLOPE_CONSTANTS] = made.slope_constants
         row[of.LAST_SLOPE] = len(tape)
-        row[of.BY_S : of.FLOW_BY_Z + 1] = made.slopes
+        row[of.BY_S : of.FLOW_BY_S + 1] = made.slopes
     return rows, np.array(tape).reshape(-1, of.OP_WIDTH)

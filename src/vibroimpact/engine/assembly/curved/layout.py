@@ -5,7 +5,7 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.series import layout as series
 
-SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP = range(1, 9)
+SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP, MEMORY_STOP = range(1, 10)
 """What a row does; 0: it is a linear stop."""
 
 (
@@ -31,7 +31,10 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP = range(1, 9)
     BY_CHI,
     FLOW_BY_V,
     FLOW_BY_Z,
-) = range(20)
+    FLOW_BY_S,
+    # Of a stop with a memory: whether this is the deformation while it is pressed.
+    TIED,
+) = range(22)
 """Of a row: the place of its two bits among those with branches (−1: it has none), its operations,
 of which the first are known (constants and what goes in), and the nodes of what goes in and comes
 out. Then come the operations of the slopes of the force, by s, s′, z and a stop's dissipation, and

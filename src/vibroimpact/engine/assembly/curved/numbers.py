@@ -50,6 +50,11 @@ def size_of(plan: Vector, y: Vector) -> float:
         for q in range(w):
             driven += abs(plan[int(plan[at.PUSH]) + i * w + q] * y[2 * n + q])
         most = max(most, abs(y[n + i]), rate * abs(y[i]), driven / rate)
+    if most == 0.0:  # at rest, where nothing but a stop is about to move them
+        for f in range(int(plan[at.STOPS])):
+            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+            if int(plan[at.MODE]) >> f & 1 and plan[one + at.KIND] != at.LINK:
+                most = max(most, rate * (closing(plan, f, y) - plan[one + at.GAP]))
     return most
 
 
@@ -144,6 +149,9 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
             continue
         plan[row + of.ACTIVE] = 1.0
         plan[row + _PER_UNIT], plan[row + _OWN_WEIGHT] = 1.0, 1.0
+        if behaviour == of.MEMORY_STOP:
+            plan[row + _OWN_WEIGHT] = 1.0 if mode >> f & 1 else 0.0
+            continue
         if behaviour in (of.POWER, of.OWN_STOP):
             touched = mode >> f & 1 == 1
             plan[row + of.ACTIVE] = 1.0 if touched else 0.0

@@ -28,7 +28,8 @@ def units(plan: Vector, units: Vector) -> None:
     linear.units(plan, units)
     n = int(plan[at.MASSES])
     for f in range(int(plan[at.STOPS])):
-        if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] == at.PUSHING:
+        kind = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND]
+        if kind == at.PUSHING and not remembers(plan, row_of(plan, f)):
             units[2 * n + f] = 1.0
 
 
@@ -42,12 +43,17 @@ def place(plan: Vector, state: Vector) -> None:
         one = int(plan[at.STOP]) + f * at.STOP_WIDTH
         kind = plan[one + at.KIND]
         if kind == at.PUSHING:
-            reach = closing(plan, f, u) - plan[one + at.GAP]
+            reach, remembered = closing(plan, f, u) - plan[one + at.GAP], deformation[f]
+            is_kept = remembers(plan, row_of(plan, f))
+            if is_kept:
+                reach -= remembered
             if reach > 0.0 or (mode >> f & 1 and reach >= 0.0):
                 touched |= 1 << f
             else:
                 deformation[f] = 0.0
-            deformation[f] = max(deformation[f], 0.0)
+            deformation[f] = remembered if is_kept else max(deformation[f], 0.0)
+            if touched >> f & 1 and plan[row_of(plan, f) + of.TIED] != 0.0:
+                deformation[f] += reach
         elif kind == at.LINK:
             row = row_of(plan, f)
             if not remembers(plan, row):
@@ -78,10 +84,10 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
         if kind == at.LINK:
             if not remembers(plan, row):
                 return 0.0
-        elif kind == at.PUSHING:
+        elif kind == at.PUSHING and not remembers(plan, row):
             if not mode >> f & 1 or not plan[row + of.NUMBERS + par.BUMPER + par.DISSIPATION] < 0.0:
                 return 0.0
-        elif (
+        elif kind != at.PUSHING and (
             mode >> f & 1 or kind == at.RIGID or not plan[one + at.RELAXATION] * period < _FORGOTTEN
         ):
             return 0.0
@@ -131,8 +137,10 @@ def complete(plan: Vector) -> None:
     sums = int(plan[at.ROW_SUMS])
     for f in range(count):
         row, one = row_of(plan, f), int(plan[at.STOP]) + f * at.STOP_WIDTH
+        if remembers(plan, row):
+            plan[one + at.RELAXATION] = 0.0  # its memory has a series
         if plan[one + at.KIND] == at.LINK:
-            plan[one + at.RELAXATION] = 0.0  # its memory stays
+            plan[one + at.RELAXATION] = 0.0
             law = row + of.NUMBERS
             stiff = plan[law + par.HYSTERETIC] * plan[law + par.SLOPE]
             stiff += 2.0 * plan[law + par.SINH] * plan[law + par.SINH_RATE]

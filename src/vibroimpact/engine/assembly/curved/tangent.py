@@ -65,7 +65,9 @@ def tie(plan: Vector, row: Vector) -> None:
                 row[2 * n + f] = closing(plan, f, row)
             elif plan[one + at.STOP_DAMPING] == 0.0:
                 row[2 * n + f] = 0.0
-        elif kind == at.PUSHING:
+        elif touched and plan[law + of.TIED] != 0.0:
+            row[2 * n + f] = closing(plan, f, row)
+        elif kind == at.PUSHING and not remembers(plan, law):
             if not touched or not plan[law + _DISSIPATION] < 0.0:
                 row[2 * n + f] = 0.0
         elif not remembers(plan, law) or _yields(plan, f, mode):
@@ -143,9 +145,13 @@ def _moved(plan: Vector, row: Vector, h: float) -> None:
                         push -= chi * plan[law + _CHI] / met * row[2 * n + f]
             if remembers(plan, law):
                 z = node(plan, law, of.Z_NODE, point)
-                push -= _convolved(plan, node(plan, law, of.BY_Z, base), z, 1, k)
+                sign = 1.0 if behaviour == of.MEMORY_STOP else -1.0
+                push += sign * _convolved(plan, node(plan, law, of.BY_Z, base), z, 1, k)
                 by_v = node(plan, law, of.FLOW_BY_V, base)
-                grown = -_difference(plan, by_v, left + v, right + v, width, k)
+                grown = sign * _difference(plan, by_v, left + v, right + v, width, k)
+                if behaviour == of.MEMORY_STOP:
+                    by_s = node(plan, law, of.FLOW_BY_S, base)
+                    grown += _difference(plan, by_s, left, right, width, k)
                 by_z = node(plan, law, of.FLOW_BY_Z, base)
                 plan[z + k + 1] = factor * (grown + _convolved(plan, by_z, z, 1, k))
             for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
@@ -182,6 +188,8 @@ def _too_long(plan: Vector, h: float) -> float:
         meets = plan[int(plan[at.COUPLING]) + f * count + f]
         by_s, by_v = node(plan, law, of.BY_S, base), node(plan, law, of.BY_V, base)
         own = max(abs(plan[by_v]) * meets, math.sqrt(abs(plan[by_s]) * meets))
+        if int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
+            own = max(own, abs(plan[node(plan, law, of.FLOW_BY_Z, base)]))
         most = max(most, own * h / _REACH)
         for k in range(last - 1, last + 1):
             term = (abs(plan[by_v + k]) + abs(plan[by_s + k]) * h) * meets * h
@@ -286,6 +294,14 @@ def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: 
         for g in range(count):
             row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
         reflect(plan, row, beyond(plan, here), beyond(plan, there))
+    elif int(plan[law + of.BEHAVIOUR]) == of.MEMORY_STOP:
+        recedes = plan[rates + f] - speed
+        if happens == CONTACT and recedes != 0.0:
+            late = (closing(plan, f, row) - row[2 * n + f]) / recedes
+            for i in range(n):
+                row[n + i] += (plan[here + i] - plan[there + i]) * late
+            for g in range(count):
+                row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
     elif kind == at.PUSHING and happens in (CONTACT, DETACHMENT):
         if speed != 0.0:
             late = -closing(plan, f, row) / speed

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.series import layout as series
 from vibroimpact.engine.series.code_generation import whole_power
 from vibroimpact.engine.series.laws import contact
 from vibroimpact.engine.series.slopes import Dual, Varying
 from vibroimpact.engine.series.step import LawNumbers, Shape, isolator, memory
+from vibroimpact.engine.stops.memory_laws import NUMBERS, MemoryLaw
 
 (
     INPUT,
@@ -199,7 +201,7 @@ class LawTape:
         moved = (Dual(one, {name: 1.0}) for one, name in ((s, "s"), (v, "v"), (z, "z")))
         force, flow = _run(VaryingSymbols(tape), shape, *moved)
         slopes = [force.by.get(name, 0.0) for name in ("s", "v", "z", "chi")]
-        slopes += [0.0 if flow is None else flow.by.get(name, 0.0) for name in ("v", "z")]
+        slopes += [0.0 if flow is None else flow.by.get(name, 0.0) for name in ("v", "z", "s")]
         series = [tape.of(one, s) for one in slopes]
         more = [*tape.constants[known[0] :], *tape.series[known[1] :]]
         places |= {one: begin + len(nodes) + i for i, one in enumerate(more)}
@@ -209,7 +211,17 @@ class LawTape:
 
 
 def _run(law: Any, shape: Shape, s: Any, v: Any, z: Any) -> tuple[Any, Any]:
-    """The force of a law and the rate of its memory, or None."""
+    """The force of a law, and the rate of its memory, or None.
+
+    A stop with a memory is followed while it is free, too.
+    """
+    if isinstance(shape.push, MemoryLaw):
+        first = par.BUMPER + par.RESTITUTION
+        numbers = [law.formula_number(first + i) for i in range(NUMBERS)]
+        pressed = law.own_weight
+        rate = v if shape.push.rate is None else shape.push.rate(numbers, s, v, z)
+        rate = rate * pressed + shape.push.free_rate(numbers, z) * (1.0 - pressed)
+        return shape.push.force(numbers, s, v, z) * pressed, rate
     if shape.push:
         return contact.force(law, "push", shape.push, s, v), None
     parts = isolator(law, shape, s, v, z)

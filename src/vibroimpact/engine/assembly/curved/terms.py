@@ -144,7 +144,9 @@ def _strain(plan: Vector, row: int, one: int, here: Vector, k: int, base: int) -
     if plan[one + at.KIND] == at.LINK:
         x, v = -x, -v
     elif k == 0:
-        x = max(x - plan[one + at.GAP], 0.0)
+        x -= plan[one + at.GAP]
+        if int(plan[row + of.BEHAVIOUR]) != of.MEMORY_STOP:
+            x = max(x, 0.0)
     plan[node(plan, row, of.S_NODE, base) + k] = x
     plan[node(plan, row, of.V_NODE, base) + k] = v
 
@@ -209,7 +211,7 @@ def expand_slopes(plan: Vector) -> None:
 @kernel
 def remembers(plan: Vector, row: int) -> bool:
     """Whether a row has a memory that the series carry."""
-    return int(plan[row + of.BEHAVIOUR]) in (of.HYSTERETIC, of.BILINEAR)
+    return int(plan[row + of.BEHAVIOUR]) in (of.HYSTERETIC, of.BILINEAR, of.MEMORY_STOP)
 
 
 @kernel
