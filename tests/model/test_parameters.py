@@ -11,10 +11,12 @@ import pytest
 import vibroimpact as vi
 from formula_stops import formula_stops
 from vibroimpact.errors import InputError
+from vibroimpact.model.isolators import ISOLATORS as ISOLATOR_KINDS
 from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
 from vibroimpact.model.paths import put, walk
 from vibroimpact.model.quantities import MASS
+from vibroimpact.model.stops import STOPS
 from vibroimpact.model.validation import Accepts, Model
 from vibroimpact.scenarios.axes import NAMES
 
@@ -147,6 +149,24 @@ def test_values_are_set_at_once_and_an_absent_stop_is_made():
         set_values(rig, {"right.gap": "1 kg"})
     with pytest.raises(vi.InputError, match=r"'isolator\.nothing' is unknown; use frequency"):
         set_values(rig, {"isolator.nothing": 1.0})
+
+
+LAWS = [
+    *(law.like(3e4, 100.0, 0.02) for law in ISOLATOR_KINDS.classes.values()),
+    *ISOLATORS.values(),
+    *(law.like(2e3, 5e-3, 7.5e-3, 0.6, 7.0, 550.0) for law in STOPS.classes.values()),
+    *(HERTZ, POUNDING, RIG.right, WALLS.right),
+]
+
+
+@pytest.mark.parametrize("law", dict.fromkeys(one for one in LAWS if one is not None), ids=repr)
+def test_every_number_of_a_law_is_read_from_text(law):
+    part = "right" if law.is_stop else "isolator"
+    rig = vi.Rig(RIG.replace(**{part: law}), SHAKEN)
+    numbers = {name: value for name, value in dict(law).items() if isinstance(value, int | float)}
+    assert numbers
+    for name, value in numbers.items():
+        assert set_values(rig, {f"{part}.{name}": repr(value)}) == rig
 
 
 def test_sides_that_differ():
