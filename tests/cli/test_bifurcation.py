@@ -127,6 +127,10 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, run_in):
             "themselves; write them with a unit, such as 0.7985kN*s/m:1.483kN*s/m, which is ±30 %",
         ),
         (
+            ("B2-G1-A3", "--vary", "isolator.stiffness=10:60kN/m", "--frequency", "2Hz"),
+            "--vary: isolator.stiffness: '60kN/m' has a unit and '10' has none; write both with",
+        ),
+        (
             ("B2-G1-A3", "--vary", "frequency=3Hz:2Hz"),
             "--vary: frequency: the first value, 3 Hz",
         ),
