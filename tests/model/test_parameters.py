@@ -210,8 +210,38 @@ def test_what_is_given_in_another_way_or_is_a_whole_number_is_not_varied():
     elastic = RIG.replace(right=HERTZ.replace(dissipation=None), left=None)
     with pytest.raises(vi.InputError, match=r"'stops\.dissipation' is not a parameter of this rig"):
         parameter("stops.dissipation", elastic)
-    with pytest.raises(vi.InputError, match=r"'isolator\.exponent' is unknown; did you mean"):
-        parameter("isolator.exponent", RIG.replace(isolator=ISOLATORS["beta"]))
+    smooth = RIG.replace(isolator=ISOLATORS["beta"])
+    for path, field, problem in (
+        ("isolator.exponent", "vary", "takes whole numbers, so it cannot be varied; compute a rig"),
+        (
+            "isolator.exponent",
+            "--vary",
+            "takes whole .*; run the command once per value, with --set isolator.exponent=VALUE$",
+        ),
+        ("exponent", "vary", r"is not a path; use 'isolator\.exponent'$"),
+    ):
+        with pytest.raises(vi.InputError, match=f"^{field}: '{path}' {problem}"):
+            parameter(path, smooth, field)
+
+
+@pytest.mark.parametrize("path", ["exponent", "left.mass", "stops.exponent", "oscillator.decay"])
+def test_a_path_is_named_as_it_was_typed(path):
+    with pytest.raises(vi.InputError, match=f"^parameter: '{path}' is not a parameter of this rig"):
+        set_values(vi.Rig(RIG, SHAKEN), {path: 3})
+
+
+def test_messages_write_values_with_units():
+    yielding = vi.Rig(RIG.replace(isolator=ISOLATORS["yield_force"]), SHAKEN)
+    with pytest.raises(
+        vi.InputError, match=r"^isolator\.elastic_stiffness at 10 kN/m: isolator\.post_yield_st"
+    ):
+        parameter("elastic_stiffness", yielding).vary(yielding, 1e4)
+    uneven = vi.Rig(RIG.replace(left=RIG.left.replace(gap=5e-3)), SHAKEN)
+    for name in ("gap", "gap_ratio"):
+        with pytest.raises(
+            vi.InputError, match=r"^gap: the stops have different values of gap, 5 mm and 7.5 mm; "
+        ):
+            parameter(name, uneven).read(uneven)
 
 
 def test_a_unit_may_depend_on_an_exponent():
@@ -223,7 +253,7 @@ def test_a_unit_may_depend_on_an_exponent():
     (one,) = read_ranges({"right.stiffness": ("1 GN/m^1.5", "3 GN/m^1.5")}, fluid)
     assert one.ends == (1e9, 3e9)
     mixed = fluid.replace(right=HERTZ.replace(stiffness=fluid.left.stiffness))
-    with pytest.raises(vi.InputError, match=r"N/m and N/m\^1\.5, .*use 'right.stiffness' or"):
+    with pytest.raises(vi.InputError, match=r"N/m and N/m\^1\.5; use 'right.stiffness' or"):
         parameter("stops.stiffness", mixed).read(vi.Rig(mixed, SHAKEN))
 
 
