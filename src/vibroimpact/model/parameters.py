@@ -50,6 +50,7 @@ from vibroimpact.model.quantities import (
     UNBALANCE,
     VELOCITY,
     Quantity,
+    of_power,
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
@@ -85,7 +86,8 @@ _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 def in_units(units: str) -> Quantity:
     """Return the quantity that has these units in a dataset."""
     of_fields = (one.quantity for one in PARAMETERS.values())
-    known = itertools.chain(_QUANTITIES, of_fields)
+    powers = filter(None, (of_power(units),))
+    known = itertools.chain(_QUANTITIES, of_fields, powers)
     return next(quantity for quantity in known if quantity.units == units)
 
 
