@@ -61,7 +61,7 @@ def test_one_motion():
 def test_branches():
     rig = vi.Rig(OSCILLATOR, SHAKEN)
     expected = vi.branch(rig, vary={"frequency": (1.98, 2.02)})
-    branch = vi.branch(CODE, frequency=2.0, vary={"frequency": (1.98, "2.02 Hz")})
+    branch = vi.branch(CODE, frequency=2.0, vary={"frequency": ("1.98 Hz", "2.02 Hz")})
     xr.testing.assert_identical(not_published(branch), expected)
     lowest = vi.branch(CODE, vary={"frequency": (1.98, 2.02)})
     assert float(lowest["frequency"].min()) == pytest.approx(1.98)

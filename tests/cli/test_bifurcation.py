@@ -76,6 +76,8 @@ def test_no_undecided_motion_is_hidden():
             "period": (shape, [[*range(1, count), 0]]),
             "exponents": ((*shape, "exponent"), -np.ones((1, count, 2))),
             "impacts": ((*shape, "stop"), np.ones((1, count, 1))),
+            "displacement_max": (shape, np.ones((1, count))),
+            "displacement_min": (shape, -np.ones((1, count))),
         },
         {
             "start": ["up"],
@@ -88,6 +90,31 @@ def test_no_undecided_motion_is_hidden():
     assert text.count("periodic") == 12
     assert text.count("undecided") == 1
     assert f"and {count - 13} narrower ranges" in text
+
+
+def test_different_motions_of_one_kind_are_told():
+    """Both directions have one range of equal motions by kind, period and contacts."""
+    hardening = vi.PolynomialIsolator("30 kN/m", "150 N s/m", "20 MN/m^3")
+    rig = vi.Rig(vi.Oscillator(550, hardening), "0.05 g", frequency=1.5)
+    data = vi.bifurcation_diagram(rig, {"isolator.cubic": ("0", "40 MN/m^3")}, 9)
+    summary = facts.facts(data)
+    assert [len(one) for one in summary["starts"].values()] == [1, 1]
+    up, down = (data["displacement_max"].sel(start=start) for start in ("up", "down"))
+    differ = np.flatnonzero(~np.isclose(up, down, rtol=1e-6))
+    values = data["isolator.cubic"].values[differ]
+    assert 1 < len(differ) < 9
+    (one,) = summary["different_motions"]
+    assert one == {"from": values[0], "to": values[-1], "values": len(differ)}
+    text = as_text(facts.text(data))
+    low, high = (f"{1e-6 * end:g}" for end in values[[0, -1]])
+    assert f"\nDifferent motions from different starts: {low} to {high} MN/m³\n" in text
+    assert "isolator.cubic (MN/m³)" in text
+    assert "largest exponent in range (1/s)" in text
+    same = data.isel({"isolator.cubic": slice(0, differ[0])})
+    assert facts.facts(same)["different_motions"] == []
+    assert "Different motions" not in as_text(facts.text(same))
+    data["motion"][:] = "chaotic"  # which is compared with nothing
+    assert facts.facts(data)["different_motions"] == []
 
 
 def test_as_json_over_the_frequency_at_impacts(tmp_path, run_in):
@@ -125,6 +152,10 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, run_in):
             ("B2-G1-A3", "--vary", "isolator.damping=-30%:30%", "--frequency", "2Hz"),
             "--vary: isolator.damping: '-30%:30%' is in percent, but a range has the values "
             "themselves; write them with a unit, such as 0.7985kN*s/m:1.483kN*s/m, which is ±30 %",
+        ),
+        (
+            ("B2-G1-A3", "--vary", "isolator.stiffness=10:60kN/m", "--frequency", "2Hz"),
+            "--vary: isolator.stiffness: '60kN/m' has a unit and '10' has none; write both with",
         ),
         (
             ("B2-G1-A3", "--vary", "frequency=3Hz:2Hz"),

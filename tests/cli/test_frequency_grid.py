@@ -63,6 +63,7 @@ def test_options_come_before_the_study_and_it_before_the_default():
         ((None, "-1Hz", None, None), r"--to: '-1Hz' is not greater than 0"),
         ((None, None, "nan", None), r"--step: 'nan' is not finite"),
         (("1kg", None, None, None), r"--from: '1kg' is a mass; use a frequency"),
+        (("1", "20rad/s", None, None), r"--from, --to: '20rad/s' has a unit and '1' has none"),
         (("6Hz", None, None, None), r"--from: 6 Hz is above --to, 5 Hz"),
         (
             (None, None, "1nHz", None),

@@ -11,7 +11,9 @@ from matplotlib.colors import same_color
 
 import vibroimpact as vi
 from vibroimpact.figures import bifurcation_curves, branch_diagram
+from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.style import SWEEPS
+from vibroimpact.model import GRAVITY
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 2.0)
@@ -64,6 +66,26 @@ def marks(ax) -> dict:
 
 def named(ax) -> list[str]:
     return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("units", "largest", "factor", "symbol"),
+    [
+        ("m", 0.02, 1e3, "mm"),
+        ("m", 3.0, 1e3, "mm"),
+        ("N m-3", 4e7, 1e-6, "MN/m³"),
+        ("N m-7", 4e7, 1e-6, "MN/m^7"),
+        ("N/m^1.5", 4e6, 1e-3, "kN/m^1.5"),
+        ("N (s/m)^0.5", 4e3, 1e-3, "kN (s/m)^0.5"),
+        ("m s-2", 0.4, 1.0 / GRAVITY, "g"),
+        ("Hz", 2.0, 1.0, "Hz"),
+        ("1", 0.4, 1.0, "–"),
+        ("N^2", 4e6, 1.0, "N^2"),
+    ],
+)
+def test_the_unit_of_a_parameter_has_a_fitting_size(units, largest, factor, symbol):
+    values = xr.DataArray([0.0, largest], attrs={"units": units})
+    assert axis_unit(values) == (pytest.approx(factor, rel=1e-15), symbol)
 
 
 # Branches

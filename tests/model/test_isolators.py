@@ -108,6 +108,9 @@ def test_a_friction_pendulum():
         ("bouc-wen", {"exponent": 1.5}, "exponent: 1.5; use a whole number from 1 to 100"),
         ("bouc-wen", {"exponent": 0}, "exponent: 0; use a whole number from 1"),
         ("bouc-wen", {"exponent": "two"}, "exponent: 'two'; use a whole number"),
+        ("bouc-wen", {"exponent": "1.5"}, "exponent: '1.5'; use a whole number"),
+        ("bouc-wen", {"exponent": "2 m"}, "exponent: '2 m'; use a whole number"),
+        ("bouc-wen", {"exponent": "nan"}, "exponent: 'nan'; use a whole number"),
         ("bouc-wen", {"exponent": True}, "exponent: True; use a whole number"),
         ("bouc-wen", {"beta": -0.1}, "beta: -0.1 is less than 0"),
         ("bouc-wen", {"gamma": -0.6}, "gamma: -0.6 plus beta, 0.6, is not greater than 0"),
@@ -141,6 +144,8 @@ def test_bad_input_is_told_in_one_line(kind, changes, message):
 def test_exponents_that_are_whole():
     assert of("bouc-wen", exponent=2.0).isolator.exponent == 2
     assert of("bouc-wen", exponent=np.int64(2)).isolator.exponent == 2
+    assert of("bouc-wen", exponent="2").isolator.exponent == 2
+    assert of("bouc-wen", exponent=" 2.0").isolator.exponent == 2
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)

@@ -12,7 +12,7 @@ WALL = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.RigidStop(0.5, 0.1))
 
 
 def test_ranges_are_read_by_path_and_with_units():
-    both = {"gap": ("-1 mm", 0.02), "right.stiffness": (1e5, 1e6)}
+    both = {"gap": ("-1 mm", "20 mm"), "right.stiffness": (1e5, 1e6)}
     gap, stiffness = read_ranges(both, RIG, 2)
     assert (gap.parameter.name, gap.ends, gap.field) == ("gap", (-1e-3, 0.02), "vary['gap']")
     assert stiffness.parameter.name == "stops.right.stiffness"
@@ -52,7 +52,7 @@ def test_what_is_not_a_mapping_of_names_is_refused(vary):
         ({"gap": (0, 1), "mass": (1, 2)}, "^vary: 'gap', 'mass'; pass a dict of .*, with one para"),
         ({"damping_rato": (0, 1)}, r"^vary: 'damping_rato' is unknown; did you mean damping_ratio"),
         (
-            {"gap": (0.02, "10 mm")},
+            {"gap": ("20 mm", "10 mm")},
             r"^vary\['gap'\]: the first value, 20 mm, is not below the second, 10 mm",
         ),
         (
@@ -66,6 +66,12 @@ def test_what_is_not_a_mapping_of_names_is_refused(vary):
         ),
         ({"gap": (1, 2, 3)}, r"^vary\['gap'\]: \(1, 2, 3\); pass the lowest and the highest"),
         ({"gap": {1, 2}}, r"^vary\['gap'\]: \{1, 2\}; pass the lowest"),
+        (
+            {"gap": ("3 mm", 7)},
+            r"^vary\['gap'\]: '3 mm' has a unit and 7 has none; write both with units$",
+        ),
+        ({"gap": ("3", "7 mm")}, r"^vary\['gap'\]: '7 mm' has a unit and '3' has none; write both"),
+        ({"frequency": (1, "3 Hz")}, r"^vary\['frequency'\]: '3 Hz' has a unit and 1 has none"),
     ],
 )
 def test_ranges_that_cannot_be(vary, message):
@@ -78,6 +84,13 @@ def test_a_range_keeps_the_bounds_of_its_parameter():
         read_ranges({"restitution": (0.5, 1.2)}, WALL)
     with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[0\]: -0\.1"):
         read_ranges({"restitution": (-0.1, 0.5)}, WALL)
+
+
+def test_0_needs_no_unit_and_a_share_has_none():
+    both = {"gap": ("0", "7 mm"), "damping_ratio": ("5 %", 0.1)}
+    gap, damping = read_ranges(both, RIG, 2)
+    assert (gap.ends, damping.ends) == ((0.0, 7e-3), (0.05, 0.1))
+    assert read_ranges({"gap": ("-1 mm", 0)}, RIG)[0].ends == (-1e-3, 0.0)
 
 
 def test_a_range_begins_at_0_only_if_its_parameter_may_be_0():

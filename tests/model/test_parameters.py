@@ -11,10 +11,12 @@ import pytest
 import vibroimpact as vi
 from formula_stops import formula_stops
 from vibroimpact.errors import InputError
+from vibroimpact.model.isolators import ISOLATORS as ISOLATOR_KINDS
 from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
 from vibroimpact.model.paths import put, walk
 from vibroimpact.model.quantities import MASS
+from vibroimpact.model.stops import STOPS
 from vibroimpact.model.validation import Accepts, Model
 from vibroimpact.scenarios.axes import NAMES
 
@@ -149,6 +151,24 @@ def test_values_are_set_at_once_and_an_absent_stop_is_made():
         set_values(rig, {"isolator.nothing": 1.0})
 
 
+LAWS = [
+    *(law.like(3e4, 100.0, 0.02) for law in ISOLATOR_KINDS.classes.values()),
+    *ISOLATORS.values(),
+    *(law.like(2e3, 5e-3, 7.5e-3, 0.6, 7.0, 550.0) for law in STOPS.classes.values()),
+    *(HERTZ, POUNDING, RIG.right, WALLS.right),
+]
+
+
+@pytest.mark.parametrize("law", dict.fromkeys(one for one in LAWS if one is not None), ids=repr)
+def test_every_number_of_a_law_is_read_from_text(law):
+    part = "right" if law.is_stop else "isolator"
+    rig = vi.Rig(RIG.replace(**{part: law}), SHAKEN)
+    numbers = {name: value for name, value in dict(law).items() if isinstance(value, int | float)}
+    assert numbers
+    for name, value in numbers.items():
+        assert set_values(rig, {f"{part}.{name}": repr(value)}) == rig
+
+
 def test_sides_that_differ():
     uneven = RIG.replace(left=RIG.left.replace(damping=1.0))
     for name in ("stops.damping", "relaxation_time"):
@@ -190,8 +210,38 @@ def test_what_is_given_in_another_way_or_is_a_whole_number_is_not_varied():
     elastic = RIG.replace(right=HERTZ.replace(dissipation=None), left=None)
     with pytest.raises(vi.InputError, match=r"'stops\.dissipation' is not a parameter of this rig"):
         parameter("stops.dissipation", elastic)
-    with pytest.raises(vi.InputError, match=r"'isolator\.exponent' is unknown; did you mean"):
-        parameter("isolator.exponent", RIG.replace(isolator=ISOLATORS["beta"]))
+    smooth = RIG.replace(isolator=ISOLATORS["beta"])
+    for path, field, problem in (
+        ("isolator.exponent", "vary", "takes whole numbers, so it cannot be varied; compute a rig"),
+        (
+            "isolator.exponent",
+            "--vary",
+            "takes whole .*; run the command once per value, with --set isolator.exponent=VALUE$",
+        ),
+        ("exponent", "vary", r"is not a path; use 'isolator\.exponent'$"),
+    ):
+        with pytest.raises(vi.InputError, match=f"^{field}: '{path}' {problem}"):
+            parameter(path, smooth, field)
+
+
+@pytest.mark.parametrize("path", ["exponent", "left.mass", "stops.exponent", "oscillator.decay"])
+def test_a_path_is_named_as_it_was_typed(path):
+    with pytest.raises(vi.InputError, match=f"^parameter: '{path}' is not a parameter of this rig"):
+        set_values(vi.Rig(RIG, SHAKEN), {path: 3})
+
+
+def test_messages_write_values_with_units():
+    yielding = vi.Rig(RIG.replace(isolator=ISOLATORS["yield_force"]), SHAKEN)
+    with pytest.raises(
+        vi.InputError, match=r"^isolator\.elastic_stiffness at 10 kN/m: isolator\.post_yield_st"
+    ):
+        parameter("elastic_stiffness", yielding).vary(yielding, 1e4)
+    uneven = vi.Rig(RIG.replace(left=RIG.left.replace(gap=5e-3)), SHAKEN)
+    for name in ("gap", "gap_ratio"):
+        with pytest.raises(
+            vi.InputError, match=r"^gap: the stops have different values of gap, 5 mm and 7.5 mm; "
+        ):
+            parameter(name, uneven).read(uneven)
 
 
 def test_a_unit_may_depend_on_an_exponent():
@@ -203,7 +253,7 @@ def test_a_unit_may_depend_on_an_exponent():
     (one,) = read_ranges({"right.stiffness": ("1 GN/m^1.5", "3 GN/m^1.5")}, fluid)
     assert one.ends == (1e9, 3e9)
     mixed = fluid.replace(right=HERTZ.replace(stiffness=fluid.left.stiffness))
-    with pytest.raises(vi.InputError, match=r"N/m and N/m\^1\.5, .*use 'right.stiffness' or"):
+    with pytest.raises(vi.InputError, match=r"N/m and N/m\^1\.5; use 'right.stiffness' or"):
         parameter("stops.stiffness", mixed).read(vi.Rig(mixed, SHAKEN))
 
 

@@ -104,6 +104,7 @@ def test_logarithmic_axes_are_refined_geometrically():
         ("gap_rtio", [1, 2], r"^vary: 'gap_rtio' is unknown; did you mean gap_ratio\?"),
         ("gap", "1:2", r"^vary\['gap'\]: '1:2' is not a list; pass a list of values"),
         ("gap", [0.01], r"^vary\['gap'\]: the list has one value; pass at least two values"),
+        ("gap", ["3 mm", 7], r"^vary\['gap'\]: '3 mm' has a unit and 7 has none; write both"),
         ("gap", [0.01, 0.01], r"^vary\['gap'\]\[1\]: 10 mm follows 10 mm; sort the values in "),
         ("gap", [-0.01, 0.01], r"^vary\['gap'\]\[0\]"),
         ("stiffness_ratio", [0.0, 1.0], r"^vary\['stiffness_ratio'\]\[0\]"),

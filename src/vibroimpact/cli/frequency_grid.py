@@ -10,6 +10,7 @@ from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.quantity_lists import check_stated_units
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
@@ -128,7 +129,7 @@ def list_frequencies(
     ------
     InputError
         If a text is not a frequency greater than 0, or if both a list and a range are passed. Also
-        if an end is missing that has no default.
+        if an end is missing that has no default, or if only one end has a unit.
     """
     texts = {"--from": start, "--to": stop, "--step": step}
     if listed is not None:
@@ -149,6 +150,8 @@ def list_frequencies(
         if number is None:
             raise InputError(f"{option}: {NO_DEFAULT}")
         numbers.append(number)
+    ends = [text for text in (start, stop) if text is not None]
+    check_stated_units(ends, FREQUENCY, "--from, --to")
     return frequency_grid(*numbers)
 
 

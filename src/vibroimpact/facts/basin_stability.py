@@ -65,7 +65,7 @@ def text(data: xr.Dataset) -> RenderableType:
     columns = (
         Column("motion", "number", left=True),
         Column("kind and period", "kinds", left=True),
-        Column(along.replace("_", " "), ("from", "to"), units=data[along].attrs["units"]),
+        Column(along, ("from", "to"), units=data[along].attrs["units"]),
         Column("smallest share", "smallest", "{:.1%}"),
         Column("largest share", "largest", "{:.1%}"),
         Column("95% interval of the largest", _INTERVAL, "{:.1%}"),

@@ -10,21 +10,55 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from vibroimpact.facts.number_format import heading
 from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.oscillator import SIDES
+from vibroimpact.model.units import plain
+from vibroimpact.response.resonance import runs
 
 _MOST = 12
 """Ranges of a start that are printed."""
+_EQUAL = 1e-4
+"""Difference between the extremes of one settled motion, divided by its size, that is surely error:
+a hundred times that of a motion that settles slowly near a bifurcation."""
 _NONE = "none"
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
-    """Return, of each start, the ranges in which motions are of one kind, in SI units."""
+    """Return, of each start, the ranges in which motions are of one kind, in SI units.
+
+    Also the ranges in which different starts lead to different periodic motions.
+    """
     name = data.attrs["parameter"]
     return {
         "parameter": name,
         "starts": {str(start): _ranges(data.sel(start=start)) for start in data["start"].values},
+        "different_motions": _different(data),
     }
+
+
+def _different(data: xr.Dataset) -> list[dict[str, Any]]:
+    """Runs of values at which the periodic motions of two starts have other displacements."""
+    name, motion = data.attrs["parameter"], data["motion"].transpose("start", ...).values
+    values = data[name].values
+    high, low = (
+        data[end].transpose("start", name, ...).values.reshape(*motion.shape, -1)
+        for end in ("displacement_max", "displacement_min")
+    )
+    periodic = (motion == "periodic")[..., np.newaxis]
+    size = np.where(periodic, high - low, 0.0).max(axis=(0, 2))
+    spread = np.max(
+        [
+            np.where(periodic, end, -np.inf).max(0) - np.where(periodic, end, np.inf).min(0)
+            for end in (high, low)
+        ],
+        axis=(0, 2),
+    )
+    apart = spread > _EQUAL * size
+    return [
+        {"from": float(values[first]), "to": float(values[last]), "values": last - first + 1}
+        for first, last in runs(apart)
+    ]
 
 
 def _ranges(one: xr.Dataset) -> list[dict[str, Any]]:
@@ -64,9 +98,9 @@ def text(data: xr.Dataset) -> RenderableType:
     columns = (
         Column("motion", lambda one: _kind(one["motion"], one["period"]), left=True),
         *([Column("contacts", _contacts, left=True)] if data.sizes["stop"] else []),
-        Column(name.replace("_", " "), ("from", "to"), 6, data[name].attrs["units"]),
+        Column(name, ("from", "to"), 6, data[name].attrs["units"]),
         Column("values", "values"),
-        Column("largest exponent", "largest_exponent", units="1/s"),
+        Column("largest exponent in range", "largest_exponent", units="1/s"),
     )
     parts: list[RenderableType] = []
     for start, ranges in summary["starts"].items():
@@ -76,6 +110,8 @@ def text(data: xr.Dataset) -> RenderableType:
         parts.append(table_of(chosen, columns))
         if more := len(ranges) - len(chosen):
             parts.append(Text(f"and {more} narrower range{'s' if more > 1 else ''}"))
+    if summary["different_motions"]:
+        parts.append(Text(f"\n{_different_text(summary['different_motions'], data[name])}"))
     every = [one for ranges in summary["starts"].values() for one in ranges]
     if data.sizes["stop"] and not any(any(one["contacts"].values()) for one in every):
         parts.append(Text(f"\nNote: {_UNTOUCHED}"))
@@ -86,6 +122,21 @@ _UNTOUCHED = (
     "none of these motions touches a stop. Motions that do may coexist: start from random states "
     "(--random), or compute basins of attraction at one value (vibroimpact basins)"
 )
+
+
+def _different_text(ranges: list[dict[str, Any]], along: xr.DataArray) -> str:
+    """Write the ranges of different motions, in the unit of the tables."""
+    ends = [one[end] for one in ranges for end in ("from", "to")]
+    scale, words = heading(str(along.name), along.attrs["units"], ends)
+    texts = [
+        " to ".join(dict.fromkeys(plain(one[end] / scale.size) for end in ("from", "to")))
+        for one in ranges[:_MOST]
+    ]
+    before = "ω = " if words == "ω" else ""
+    more = f" and {len(ranges) - _MOST} more ranges" if len(ranges) > _MOST else ""
+    return (
+        f"Different motions from different starts: {before}{', '.join(texts)} {scale.symbol}"
+    ).rstrip() + more
 
 
 def _contacts(one: dict[str, Any]) -> str:

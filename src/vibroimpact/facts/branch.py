@@ -95,7 +95,7 @@ def _columns(data: xr.Dataset, parameter: str) -> tuple[Column, ...]:
     units = data[parameter].attrs["units"]
     return (
         Column("bifurcation", "kind", left=True),
-        Column(parameter.replace("_", " "), "value", _DIGITS, units),
+        Column(parameter, "value", _DIGITS, units),
         *([Column("η_d", "eta_d")] if "bifurcation_eta_d" in data else []),
         Column("largest multipliers", lambda one: _multipliers(*one["multipliers"][:2])),
         Column("", _note),

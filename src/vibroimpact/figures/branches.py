@@ -15,6 +15,7 @@ from vibroimpact.datasets.description import motion_parameters, own_outputs
 from vibroimpact.datasets.stops import of_stop, quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
+from vibroimpact.facts.number_format import shown_in
 from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.finish import finished
@@ -24,7 +25,6 @@ from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import CurveStyle, sweeps_of
 from vibroimpact.model.oscillator import SIDES
-from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
 from vibroimpact.response.resonance import runs
 from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
@@ -167,16 +167,14 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:
-    """Return factor and unit of the axis of a parameter: mm for lengths."""
+    """Return factor and unit of the axis of a parameter, those of tables, but mm for any length."""
     units = str(values.attrs["units"])
     if unitless():
         return 1.0, "–"
-    if units == "m":
+    if units == "m":  # as on the axes of displacements
         return 1e3, "mm"
-    if units in ("N", "N m-1", "N s m-1", "kg", "kg m"):
-        scale = in_units(units).unit(*values.values.ravel())
-        return 1.0 / scale.size, scale.symbol
-    return 1.0, {"1": "–", "m s-2": "m/s²"}.get(units, units)
+    scale = shown_in(units, values.values.ravel())
+    return 1.0 / scale.size, scale.symbol or "–"
 
 
 def stable_pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:

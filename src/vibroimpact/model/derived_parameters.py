@@ -17,6 +17,7 @@ from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import DIMENSIONLESS, PERIOD, STIFFNESS, Quantity
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Model
 
 
@@ -74,19 +75,19 @@ def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
         if name in numbers:
             by_side[side] = numbers
     if not by_side:
-        raise InputError(
-            f"parameter: the rig has no stop with a {name}; use a rig with such a stop"
-        )
+        raise InputError(f"{name}: the rig has no stop with a {name}; use a rig with such a stop")
     return by_side
 
 
 def _common(oscillator: Oscillator, name: str) -> float:
-    values = sorted({one[name] for one in _numbers(oscillator, name).values()})
+    by_side = _numbers(oscillator, name)
+    values = sorted({one[name] for one in by_side.values()})
     if len(values) > 1:
+        _, accepts = oscillator.stops[next(iter(by_side))].knobs()[name]
         raise InputError(
-            f"parameter: the stops have different values of {name}, "
-            f"{' and '.join(map(str, values))}; use 'right.{name}' or 'left.{name}', or a rig with "
-            "equal stops"
+            f"{name}: the stops have different values of {name}, "
+            f"{' and '.join(pretty(one, accepts.quantity) for one in values)}; use 'right.{name}' "
+            f"or 'left.{name}', or a rig with equal stops"
         )
     return values[0]
 
@@ -102,7 +103,7 @@ def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]
         pair = stop.spring_and_dashpot
         if pair is None:
             raise InputError(
-                f"parameter: {name!r} sets stiffness and damping of bumpers, but the {side} stop "
+                f"{name!r} sets stiffness and damping of bumpers, but the {side} stop "
                 f"has the law {stop.kind!r}; use 'stops.{side}.stiffness'"
             )
         by_side[side] = pair
@@ -160,7 +161,7 @@ def _relaxation_time(rig: Rig) -> float:
     times = sorted(damping / stiffness for stiffness, damping in bumpers)
     if not math.isclose(times[0], times[-1], rel_tol=1e-12):
         raise InputError(
-            "parameter: 'relaxation_time' applies to both bumpers, but their ratios of damping to "
+            "'relaxation_time' applies to both bumpers, but their ratios of damping to "
             f"stiffness are {' and '.join(f'{one:g}' for one in times)} s; use 'right.damping' or "
             "'left.damping', or a rig with equal ratios"
         )
@@ -177,7 +178,7 @@ def _check_isolator(oscillator: Oscillator, field: str, name: str) -> None:
     if field not in _fields(oscillator.isolator):
         kind = oscillator.isolator.kind
         raise InputError(
-            f"parameter: {name!r} sets the {field} of the isolator, but its law, {kind}, has none; "
+            f"{name!r} sets the {field} of the isolator, but its law, {kind}, has none; "
             f"use an isolator with a {field}"
         )
 

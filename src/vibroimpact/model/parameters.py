@@ -34,7 +34,7 @@ from vibroimpact.model.excitation import FREQUENCY_WORDS, Of, amplitude_of
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.oscillator import Oscillator
-from vibroimpact.model.paths import Place, Steps, put, walk
+from vibroimpact.model.paths import Place, Steps, put, walk, whole_numbers
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
@@ -50,11 +50,12 @@ from vibroimpact.model.quantities import (
     UNBALANCE,
     VELOCITY,
     Quantity,
+    of_power,
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
 from vibroimpact.model.system import System
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model
 
 _QUANTITIES = (
@@ -85,7 +86,8 @@ _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 def in_units(units: str) -> Quantity:
     """Return the quantity that has these units in a dataset."""
     of_fields = (one.quantity for one in PARAMETERS.values())
-    known = itertools.chain(_QUANTITIES, of_fields)
+    powers = filter(None, (of_power(units),))
+    known = itertools.chain(_QUANTITIES, of_fields, powers)
     return next(quantity for quantity in known if quantity.units == units)
 
 
@@ -149,7 +151,7 @@ class Parameter(NamedTuple):
             keep_open = self.name != "frequency"
             return rig.with_parts(rig.system, changed, keep_open=keep_open)
         steps = _of_one_unit(self.name, rig.system)
-        with errors_at(f"parameter: {self.name} at {value:.6g}: "):
+        with errors_at(f"{self.name} at {pretty(value, self.quantity)}: "):
             return rig.with_parts(put(rig.system, dict.fromkeys(steps, value)))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
@@ -263,11 +265,12 @@ def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
     """
     known = PARAMETERS if isinstance(rig.system, Oscillator) else _places(rig.system)
     named: dict[str, Any] = {}
+    typed: dict[str, str] = {}
     for path, value in values.items():
         name = canonical(path, [*known, "frequency", "amplitude"])
         if name in named:
             raise InputError(f"parameter: {path!r} is given twice; remove one of the two")
-        named[name] = value
+        named[name], typed[name] = value, path
     bare = [name.removeprefix("stops.") for name in named]
     for whole, name in itertools.permutations(bare, 2):
         if name.startswith(f"{whole}."):
@@ -286,10 +289,11 @@ def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
     fields = {
         name: named[name] for name in sorted(named, key=_depth_of_path) if name not in DERIVED
     }
-    rig = _with_fields(rig, fields)
+    rig = _with_fields(rig, fields, typed)
     for name in _ORDER:
         if name == "damping" and len(fields) < len(named):  # which derived parameters have scaled
-            rig = _with_fields(rig, {k: v for k, v in fields.items() if k.endswith(".damping")})
+            dampings = {path: one for path, one in fields.items() if path.endswith(".damping")}
+            rig = _with_fields(rig, dampings, typed)
         elif name in named:
             rig = _with_derived(rig, name, named[name])
     return rig
@@ -320,8 +324,9 @@ def _depth_of_path(name: str) -> int:
     return name.count(".")
 
 
-def _with_fields(rig: Rig, values: Mapping[str, Any]) -> Rig:
-    steps = {one: value for path, value in values.items() for one in _steps(rig, path)}
+def _with_fields(rig: Rig, values: Mapping[str, Any], typed: Mapping[str, str]) -> Rig:
+    """Return the rig with other values of fields. `typed` are their paths as they were written."""
+    steps = {one: value for path, value in values.items() for one in _steps(rig, path, typed[path])}
     return rig.with_parts(put(rig.system, steps)) if steps else rig
 
 
@@ -333,8 +338,11 @@ def _with_derived(rig: Rig, name: str, value: Any) -> Rig:
     return one.vary(rig, number)
 
 
-def _steps(rig: Rig, name: str) -> list[Steps]:
-    """Return where a field stands. A path of all stops stands for those that have the field."""
+def _steps(rig: Rig, name: str, typed: str) -> list[Steps]:
+    """Return where a field stands. A path of all stops stands for those that have the field.
+
+    An error names the path as it was typed.
+    """
     system = rig.system
     if name in _places(system):
         return _of_one_unit(name, system)
@@ -361,7 +369,7 @@ def _steps(rig: Rig, name: str) -> list[Steps]:
                     f"parameter: {name}: the law is {type(law).__name__}; to change it, write a "
                     "rig with all numbers of another law"
                 )
-        raise _unknown(name, rig, "parameter")
+        raise _unknown(typed, rig, "parameter")
     return paths
 
 
@@ -443,8 +451,15 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
     name = path.strip().lower() if isinstance(path, str) else ""
     if (symbol := name.replace("_", "")) in _SYMBOLS:
         return InputError(f"{field}: {path!r} is not a name of a parameter; use {_SYMBOLS[symbol]}")
-    known = list(parameters(rig))
-    if meanings := _fields_named(name, known):
+    known, whole = list(parameters(rig)), list(map(_path, whole_numbers(rig.system)))
+    if (one := canonical(path, whole)) in whole:
+        how = (
+            f"run the command once per value, with --set {one}=VALUE"
+            if field.startswith("--")
+            else "compute a rig for each value"
+        )
+        return InputError(f"{field}: {path!r} takes whole numbers, so it cannot be varied; {how}")
+    if meanings := _fields_named(name, [*known, *whole]):
         return InputError(f"{field}: {path!r} is not a path; use {meanings}")
     use = advised(suggestion(path, known), alternatives(known))
     elsewhere = canonical(path, PARAMETERS) in PARAMETERS
@@ -453,18 +468,17 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
 
 
 def _uneven(name: str, places: list[Place]) -> InputError:
-    field = places[0].steps[-1]
+    field, quantity = places[0].steps[-1], places[0].accepts.quantity
     symbols = sorted({one.accepts.quantity.symbol for one in places})
+    values = [pretty(one, quantity) for one in sorted({one.value for one in places})]
     words = (
-        f"values of {field}, "
-        f"{' and '.join(map(str, sorted({one.value for one in places})))} {symbols[0]}".rstrip()
+        f"values of {field}, {' and '.join(values)}"
         if len(symbols) == 1
         else f"units of {field}, {' and '.join(symbols)}"
     )
     own = " or ".join(repr(f"{'.'.join(one.steps)}") for one in places)
     return InputError(
-        f"parameter: the stops have different {words}, so {name!r} has no value; use {own}, or a "
-        "rig with equal stops"
+        f"{name}: the stops have different {words}; use {own}, or a rig with equal stops"
     )
 
 

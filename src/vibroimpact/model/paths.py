@@ -44,6 +44,19 @@ def walk(part: Any, steps: Steps = ()) -> Iterator[Place]:
                 yield from walk(child, (*steps, name))
 
 
+def whole_numbers(part: Any, steps: Steps = ()) -> Iterator[Steps]:
+    """Yield the places of fields that take whole numbers only, which cannot be varied."""
+    if isinstance(part, Mapping):
+        for key, value in part.items():
+            yield from whole_numbers(value, (*steps, key))
+    elif isinstance(part, Model):
+        for name in type(part).model_fields:
+            value = getattr(part, name)
+            if type(value) is int:
+                yield (*steps, name)
+            yield from whole_numbers(value, (*steps, name))
+
+
 def _of_items(annotation: Any) -> Accepts | None:
     """Return what the annotation of a mapping accepts as its items."""
     for part in get_args(annotation):

@@ -219,6 +219,21 @@ def power_damping(exponent: float) -> Quantity:
     return _made(f"damping in {symbol}", symbol, f"1.1 k{symbol}", 1100, least, powers)
 
 
+_OF_POWERS = (
+    (re.compile(r"N/m\^(-?[\d.]+)|N m-(\d+)"), power_stiffness),
+    (re.compile(r"N \(s/m\)\^([\d.]+)"), power_damping),
+)
+"""Units, as datasets state them, of families of quantities with an exponent."""
+
+
+def of_power(units: str) -> Quantity | None:
+    """Return the quantity with an exponent that has these units in a dataset, or None."""
+    for pattern, family in _OF_POWERS:
+        if match := pattern.fullmatch(units):
+            return family(float(next(filter(None, match.groups()))))
+    return None
+
+
 @cache
 def in_base_units(mass: float, length: float, time: float) -> Quantity:
     """Return the quantity with these powers of mass, length and time, written in kg, m and s."""

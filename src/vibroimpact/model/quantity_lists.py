@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -30,13 +31,14 @@ def read_span(
     Raises
     ------
     InputError
-        If it is not a pair in rising order, or if a value is invalid.
+        If it is not a pair in rising order, if a value is invalid, or if only one has a unit.
     """
     if not is_pair(span):
         raise InputError(
             f"{field}: {shown(span)}; pass the lowest and the highest {what} as (low, high)"
         )
     low, high = (to_si(end, quantity, f"{field}[{i}]", **bounds) for i, end in enumerate(span))
+    check_stated_units(span, quantity, field)
     if not low < high:
         first, second = (pretty(end, quantity) for end in (low, high))
         raise InputError(
@@ -44,6 +46,33 @@ def read_span(
             "value first"
         )
     return low, high
+
+
+def check_stated_units(ends: Iterable[Any], quantity: Quantity, field: str) -> None:
+    """Refuse valid ends of a range of which only one has a unit; 0 needs none.
+
+    ``10:60 kN/m`` would begin at 10 N/m.
+    """
+    if not quantity.base:
+        return
+    with_unit = [end for end in ends if _states_unit(end)]
+    bare = [end for end in ends if not _states_unit(end) and float(end)]
+    if with_unit and bare:
+        raise InputError(
+            f"{field}: {shown(with_unit[0])} has a unit and {shown(bare[0])} has none; write both "
+            "with units"
+        )
+
+
+def _states_unit(value: Any) -> bool:
+    """Return whether a valid value has a unit."""
+    if not isinstance(value, str):
+        return hasattr(value, "to_base_units")  # of pint
+    try:
+        float(value)
+    except ValueError:
+        return True
+    return False
 
 
 def read_rising(

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_mapping, check_name
+from vibroimpact.arguments import check_list, check_mapping, check_name
 from vibroimpact.errors import InputError, alternatives, unknown
 from vibroimpact.model import Harmonic
 from vibroimpact.model.derived_parameters import largest_free_displacement
@@ -17,7 +17,7 @@ from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameter_ranges import entries, field_of
 from vibroimpact.model.parameters import PARAMETERS, canonical, set_values, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
-from vibroimpact.model.quantity_lists import read_rising
+from vibroimpact.model.quantity_lists import check_stated_units, read_rising
 from vibroimpact.model.rig import Rig
 
 _Array = NDArray[np.float64]
@@ -119,6 +119,7 @@ def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) ->
     varied = usual(name, of)
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
     numbers = read_rising(values, varied.quantity, field, 2, **limits, maximum=varied.most)
+    check_stated_units(check_list(values, field), varied.quantity, field)
     if name == "damping_ratio" and numbers[-1] >= math.sqrt(0.5):
         raise InputError(
             f"{field}[{len(numbers) - 1}]: at a damping ratio of {numbers[-1]:g}, there is no "

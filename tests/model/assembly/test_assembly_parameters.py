@@ -86,5 +86,5 @@ def test_paths_that_there_are_not(path: str, says: str) -> None:
 
 
 def test_values_that_cannot_be() -> None:
-    with pytest.raises(vi.InputError, match=r"^parameter: masses.base at -1: masses.base: -1"):
+    with pytest.raises(vi.InputError, match=r"^masses.base at -1 kg: masses.base: -1"):
         parameter("masses.base", rig()).vary(rig(), -1.0)

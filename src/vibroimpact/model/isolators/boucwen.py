@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Self
 
@@ -12,6 +13,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import YieldingLaw
 from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.units import read
 from vibroimpact.model.validation import Accepts, takes_fields
 
 _SETTLED = 40.0
@@ -24,8 +26,11 @@ _STEPS = 8
 
 
 def _whole(value: Any) -> int:
-    """Read an integer exponent; 2.0 counts as 2."""
+    """Read an integer exponent; 2.0 and ``"2"`` count as 2."""
     number: Any = value if isinstance(value, Integral | float) else math.nan
+    if isinstance(value, str):
+        with suppress(InputError):
+            number = read(value, DIMENSIONLESS)
     if isinstance(value, bool) or not 1 <= number <= 100 or not float(number).is_integer():
         raise InputError(f"{shown(value)}; use a whole number from 1 to 100, such as 1")
     return int(number)
