@@ -44,6 +44,7 @@ from .model import Record as Record
 from .model import Rig as Rig
 from .model import RigidStop as RigidStop
 from .model import State as State
+from .model import ZenerBumper as ZenerBumper
 from .model import chain as chain
 from .model import from_dimensionless as from_dimensionless
 from .model import laboratory as laboratory

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
-from vibroimpact.law_numbers import MemoryStop
-from vibroimpact.model.quantities import DAMPING, LENGTH, STIFFNESS
-from vibroimpact.model.stops.law import StopLaw
-from vibroimpact.model.validation import Accepts, takes_fields
 
 K, C, GAP = 100.0, 1.0, 0.02
 DRIVE = vi.Harmonic(3.0, 2.0)
@@ -95,28 +89,8 @@ def test_the_difference_is_proportional_to_the_mass_of_the_pad(light, massless, 
     assert 0.02 * mass < light(mass) - massless() < 0.04 * mass
 
 
-class StandardSolid(StopLaw):
-    """The same stop as a kind."""
-
-    kind: ClassVar[str] = "solid"
-
-    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    relaxing: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    dashpot: Annotated[float, Accepts(DAMPING, above=0.0)]
-    gap: Annotated[float, Accepts(LENGTH)]
-
-    @takes_fields
-    def __init__(self, stiffness: float, relaxing: float, dashpot: float, gap: float) -> None: ...
-
-    def engine_numbers(self) -> Any:
-        return MemoryStop("solid", (self.stiffness, self.relaxing, self.dashpot), self.gap)
-
-    def static_force(self, deformation: float) -> float:
-        return self.stiffness * deformation
-
-
 def test_a_memory_of_its_own_is_that_of_a_pad_without_mass() -> None:
-    stop = StandardSolid(STIFF, RELAXING, DASHPOT, GAP)
+    stop = vi.ZenerBumper(STIFF, RELAXING, DASHPOT, GAP)
     system = vi.Assembly(
         masses={"body": 1.0},
         links={"spring": vi.Link("ground", "body", vi.Isolator(K, C))},

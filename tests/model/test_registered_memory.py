@@ -38,11 +38,11 @@ from typing import Annotated, ClassVar
 
 from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model.quantities import DAMPING, LENGTH, STIFFNESS, quantity
-from vibroimpact.model.stops.law import StopLaw
+from vibroimpact.model.stops.law import StopWithMemory
 from vibroimpact.model.validation import Accepts, takes_fields
 
 
-class HardeningStop(StopLaw):
+class HardeningStop(StopWithMemory):
     """A stop with a hardening spring and a dashpot."""
 
     kind: ClassVar[str] = "hardening"

@@ -35,7 +35,14 @@ from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.state import State
-from vibroimpact.model.stops import Bumper, JankowskiBumper, PowerBumper, RigidStop, Stop
+from vibroimpact.model.stops import (
+    Bumper,
+    JankowskiBumper,
+    PowerBumper,
+    RigidStop,
+    Stop,
+    ZenerBumper,
+)
 from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Model, validate
 
@@ -71,6 +78,7 @@ __all__ = [
     "RigidStop",
     "State",
     "Stop",
+    "ZenerBumper",
     "chain",
     "equilibrium",
     "from_dimensionless",

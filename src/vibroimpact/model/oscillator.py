@@ -228,6 +228,16 @@ class Oscillator(System):
         return self
 
     @model_validator(mode="after")
+    def _stops_of_one_mass(self) -> Self:
+        for side, stop in self.stops.items():
+            if stop.remembers:
+                raise InputError(
+                    f"{side}: a {type(stop).__name__} is a stop of assemblies only; use an Assembly "
+                    "of one mass"
+                )
+        return self
+
+    @model_validator(mode="after")
     def _room_between_walls(self) -> Self:
         if isinstance(self.right, WallLaw) and isinstance(self.left, WallLaw):
             right, left = self.right.gap, self.left.gap

@@ -15,7 +15,6 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import FLIGHT, FRESH, MODE, ONE_MASS
 from vibroimpact.errors import InputError, shown
-from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model import (
     AssemblyState,
     Oscillator,
@@ -51,12 +50,6 @@ _IN_WORDS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 
 def oscillator_numbers(oscillator: Oscillator, shaking: Repeated | Record) -> NDArray[np.float64]:
     """Return an oscillator that is shaken as the engine's vector."""
-    for side, stop in oscillator.stops.items():
-        if isinstance(stop.engine_numbers(), MemoryStop):
-            raise InputError(
-                f"{side}: an oscillator cannot have a stop with a memory of this kind; use an "
-                "Assembly of one mass"
-            )
     stiffness, damping, law = oscillator.isolator.engine_numbers()
     right, left = (
         None if stop is None else stop.engine_numbers()

@@ -54,12 +54,18 @@ class StoredEnergy:
         return linear + curved + float(self.of_pressed(state).sum())
 
     def of_pressed(self, state: _Array) -> _Array:
-        """Return the energy (J) of each stop without memory that is touched, 0 of the others."""
+        """Return the energy (J) of each stop that is not a spring and a dashpot; 0 of the others."""
         energies, mode = np.zeros(len(self._springs)), int(state[MODE])
-        u = state[FIRST:][: len(self._mass)]
+        n = len(self._mass)
+        u, memories = state[FIRST:][:n], state[FIRST:][2 * n :]
         for f, law in self._pressed.items():
-            if mode >> f & 1:
-                energies[f] = law.stored_energy(max(float(self._closing[f] @ u) - law.gap, 0.0))
+            pressed = mode >> f & 1
+            depth = max(float(self._closing[f] @ u) - law.gap, 0.0)
+            if law.remembers:
+                memory = float(memories[f])
+                energies[f] = law.stored_energy(depth if pressed else memory, memory)
+            elif pressed:
+                energies[f] = law.stored_energy(depth)
         return energies
 
 

@@ -35,7 +35,7 @@ class MemoryLaw(NamedTuple):
     free_rate: Callable[[Any, Any], Any]
 
 
-SOLID = MemoryLaw(
+ZENER = MemoryLaw(
     force=lambda of, d, v, z: (d - z) * (of[0] + of[1]),
     rate=lambda of, d, v, z: (d * (of[1] / (of[0] + of[1])) - z) * (of[1] / of[2]),
     free_rate=lambda of, z: z * (-of[0] * of[1] / ((of[0] + of[1]) * of[2])),
@@ -45,7 +45,7 @@ SOLID = MemoryLaw(
 The end of the dashpot is at z (k + k₁)/k₁.
 """
 
-LAWS: dict[str, MemoryLaw] = {"solid": SOLID}
+LAWS: dict[str, MemoryLaw] = {"zener": ZENER}
 """By the name that a `MemoryStop` has."""
 
 

@@ -101,7 +101,12 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
         if held:
             memory[name] = held
     displacements = {name: float(one) for name, one in zip(assembly.names, u, strict=True) if one}
-    return AssemblyState(displacements, memory=memory)
+    pressed = {
+        name: one.stop.remembered(depth)
+        for name, one in assembly.stops.items()
+        if one.stop.remembers and (depth := float(assembly.closing(one) @ u) - one.stop.gap) > 0.0
+    }
+    return AssemblyState(displacements, deformation=pressed, memory=memory)
 
 
 def check_balance(assembly: Assembly) -> None:

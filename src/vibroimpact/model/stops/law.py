@@ -25,7 +25,7 @@ class StopLaw(Named):
     defines `engine_numbers`, `static_force` and `force`, and is an entry of `STOPS`. What it does
     not define is that of a deformable stop without memory. A law that is given by a formula is
     derived from `FormulaStop` instead, and needs no more than its fields and the formula; a rigid
-    one, from `WallLaw`.
+    one, from `WallLaw`; one with a memory, from `StopWithMemory`.
 
     Attributes
     ----------
@@ -92,6 +92,15 @@ class StopLaw(Named):
         return False
 
     @property
+    def remembers(self) -> bool:
+        """Whether the force also depends on a memory of the law's own."""
+        return False
+
+    def remembered(self, deformation: float) -> float:
+        """Return the memory (m) of a deformation (m) that has lasted for long."""
+        return 0.0
+
+    @property
     def spring_and_dashpot(self) -> tuple[float, float] | None:
         """The pair (K_j, C_j) of a stop whose face relaxes after a contact; otherwise None."""
         return None
@@ -118,6 +127,30 @@ class WallLaw(StopLaw):
     def rigid(self) -> bool:
         """Whether the mass cannot pass the stop: always true."""
         return True
+
+
+class StopWithMemory(StopLaw):
+    """Base class of the deformable stops with a memory of their own.
+
+    Only an `Assembly` can have them; an oscillator is an assembly of one mass. The memory is the
+    deformation (m) at which the face stands while no body touches it. A new law has a ``kind``, its
+    fields (one of them ``gap``), `static_force`, and `engine_numbers` that return a `MemoryStop`
+    with the name of its formulas in ``engine/stops/memory_laws.py``; if the memory is not the
+    deformation itself while the stop is pressed, also `remembered` and `stored_energy`.
+    """
+
+    @property
+    def remembers(self) -> bool:
+        """Whether the law has a memory: always true."""
+        return True
+
+    def remembered(self, deformation: float) -> float:
+        """Return the memory (m) of a deformation (m) that has lasted for long."""
+        return deformation
+
+    def stored_energy(self, deformation: float, memory: float | None = None) -> float:
+        """Return the energy (J) of a deformation with a memory (m). Default: it has settled."""
+        return super().stored_energy(deformation)
 
 
 class FormulaStop(StopLaw):
