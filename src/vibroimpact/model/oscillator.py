@@ -232,8 +232,8 @@ class Oscillator(System):
         for side, stop in self.stops.items():
             if stop.remembers:
                 raise InputError(
-                    f"{side}: a {type(stop).__name__} is a stop of assemblies only; use an Assembly "
-                    "of one mass"
+                    f"{side}: a {type(stop).__name__} is a stop of assemblies only; use an "
+                    "Assembly of one mass"
                 )
         return self
 

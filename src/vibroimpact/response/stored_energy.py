@@ -54,7 +54,7 @@ class StoredEnergy:
         return linear + curved + float(self.of_pressed(state).sum())
 
     def of_pressed(self, state: _Array) -> _Array:
-        """Return the energy (J) of each stop that is not a spring and a dashpot; 0 of the others."""
+        """Return the energy (J) of each stop without a linear spring; 0 of the others."""
         energies, mode = np.zeros(len(self._springs)), int(state[MODE])
         n = len(self._mass)
         u, memories = state[FIRST:][:n], state[FIRST:][2 * n :]

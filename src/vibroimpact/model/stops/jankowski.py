@@ -106,7 +106,7 @@ class JankowskiBumper(StopLaw):
         damping = 2.0 * self.damping_ratio * np.sqrt(self.mass * self.stiffness * np.sqrt(d))
         return np.asarray(self.stiffness * d**1.5 + damping * np.maximum(v, 0.0))
 
-    def stored_energy(self, deformation: float) -> float:
+    def stored_energy(self, deformation: float, memory: float | None = None) -> float:
         """Return the energy k δ^2.5/2.5 (J) of a deformation (m)."""
         return self.static_force(deformation) * deformation / 2.5
 

@@ -44,8 +44,11 @@ class StopLaw(Named):
         """Return the force (N) of the stop at a slow deformation (m)."""
         raise NotImplementedError
 
-    def stored_energy(self, deformation: float) -> float:
-        """Return the energy (J) that the stop gives back after a slow deformation (m)."""
+    def stored_energy(self, deformation: float, memory: float | None = None) -> float:
+        """Return the energy (J) that the stop gives back after a deformation (m).
+
+        A law that remembers has a `memory` (m). Default: the deformation was slow.
+        """
         return integral_of(self.static_force, deformation)
 
     def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
@@ -148,9 +151,6 @@ class StopWithMemory(StopLaw):
         """Return the memory (m) of a deformation (m) that has lasted for long."""
         return deformation
 
-    def stored_energy(self, deformation: float, memory: float | None = None) -> float:
-        """Return the energy (J) of a deformation with a memory (m). Default: it has settled."""
-        return super().stored_energy(deformation)
 
 
 class FormulaStop(StopLaw):

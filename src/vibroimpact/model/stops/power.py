@@ -143,7 +143,7 @@ class PowerBumper(StopLaw):
         chi = self.dissipation if number is None else number / closing if closing else 0.0
         return np.maximum(self.stiffness * d**self.exponent * (1.0 + (chi or 0.0) * v), 0.0)
 
-    def stored_energy(self, deformation: float) -> float:
+    def stored_energy(self, deformation: float, memory: float | None = None) -> float:
         """Return the energy k δⁿ⁺¹/(n + 1) (J) of a deformation (m)."""
         return self.static_force(deformation) * deformation / (self.exponent + 1.0)
 

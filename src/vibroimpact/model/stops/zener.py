@@ -80,7 +80,7 @@ class ZenerBumper(StopWithMemory):
         return self._share * deformation
 
     def stored_energy(self, deformation: float, memory: float | None = None) -> float:
-        """Return the energy (J) of both springs. Default: the deformation has settled."""
+        """Return the energy (J) of both springs."""
         dashpot = deformation if memory is None else memory / self._share
         stretched = deformation - dashpot
         return 0.5 * (self.stiffness * deformation**2 + self.relaxing_stiffness * stretched**2)
