@@ -225,6 +225,11 @@ def parameters(rig: Rig) -> dict[str, Parameter]:
     }
 
 
+def whole_number_paths(system: System) -> dict[str, int]:
+    """Return the values of the fields that take whole numbers only, by path; they can be set."""
+    return {_path(steps): value for steps, value in whole_numbers(system)}
+
+
 def canonical(path: object, known: Iterable[str]) -> str:
     """Return the path under which a parameter is known, such as ``stops.right.gap``.
 
@@ -451,7 +456,7 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
     name = path.strip().lower() if isinstance(path, str) else ""
     if (symbol := name.replace("_", "")) in _SYMBOLS:
         return InputError(f"{field}: {path!r} is not a name of a parameter; use {_SYMBOLS[symbol]}")
-    known, whole = list(parameters(rig)), list(map(_path, whole_numbers(rig.system)))
+    known, whole = list(parameters(rig)), list(whole_number_paths(rig.system))
     if (one := canonical(path, whole)) in whole:
         how = (
             f"run the command once per value, with --set {one}=VALUE"
