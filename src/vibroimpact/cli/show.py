@@ -17,10 +17,9 @@ def show(
 ) -> int:
     """Print the rig, its natural frequencies, modes, equilibrium and parameters, and draw it.
 
-    Parameters are listed by path, as --set and --vary name them. Nothing is simulated. The drawing
-    shows the masses, the links, and the stops with their gaps to scale. Modes are those without
-    stops; curved links have their initial stiffness. The command writes this file (--name sets
-    NAME):
+    It lists the paths of the parameters with their values. Nothing is simulated. The drawing shows
+    the masses, the links, and the stops with their gaps to scale. Modes are those without stops;
+    curved links have their initial stiffness. The command writes this file (--name sets NAME):
 
     - NAME-system.png: the drawing
 
