@@ -109,7 +109,7 @@ def test_different_motions_of_one_kind_are_told():
     low, high = (f"{1e-6 * end:g}" for end in values[[0, -1]])
     assert f"\nDifferent motions from different starts: {low} to {high} MN/m³\n" in text
     assert "isolator.cubic (MN/m³)" in text
-    assert "largest exponent in range (1/s)" in text
+    assert "exponent at most (1/s)" in text
     same = data.isel({"isolator.cubic": slice(0, differ[0])})
     assert facts.facts(same)["different_motions"] == []
     assert "Different motions" not in as_text(facts.text(same))

@@ -176,6 +176,30 @@ def test_options_are_read_by_the_laws_of_the_rig():
         changed(yielding, of(**{"isolator.stiffness": "3"}))
 
 
+def test_an_exponent_does_not_change_the_meaning_of_another_number():
+    fluid = vi.Oscillator(550, vi.Isolator(3e4, 1e3, 0.5), HERTZ, CASE.left)
+    before = HERTZ.stiffness
+    with pytest.raises(
+        vi.InputError,
+        match=r"^--set: stops\.right\.stiffness: the other exponent would turn .*N/m\^1\.5 into "
+        r".*N/m\^2\.5; set it, too$",
+    ):
+        changed(fluid, of(**{"right.exponent": "2.5"}))
+    with pytest.raises(
+        vi.InputError, match=r"^--set: isolator\.damping: .* \(s/m\)\^0\.5 into 1 kN s"
+    ):
+        changed(fluid, of(damping_exponent="1"))
+    for path, value in (("right.stiffness", "2 MN/m^2.5"), ("stops.right.stiffness", str(before))):
+        made = changed(fluid, of(**{"right.exponent": "2.5", path: value}))
+        assert made.right.exponent == 2.5
+    free = fluid.replace(isolator=vi.Isolator(3e4, 0, 0.5))
+    assert changed(free, of(damping_exponent="1")).isolator == vi.Isolator(3e4, 0)
+    assert changed(fluid, of(**{"right.exponent": "1.5"})) == fluid
+    assert changed(fluid, of(isolator="none")).isolator.damping == 0.0
+    bare = vi.Oscillator(1, vi.Isolator(1, 1, 0.5), units="none")
+    assert changed(bare, of(damping_exponent="2")).isolator.damping_exponent == 2.0
+
+
 STUDY = """
 [oscillator]
 mass = "550 kg"

@@ -50,6 +50,39 @@ def test_modes_and_the_equilibrium_are_those_of_the_library(run, tmp_path) -> No
     assert "Note: damping: the undamped modes do not decouple it" in out
 
 
+def test_paths_with_present_values(run, tmp_path) -> None:
+    (tmp_path / "own.toml").write_text(
+        "[oscillator]\nmass = '550 kg'\n[oscillator.isolator]\nkind = 'bouc-wen'\n"
+        "elastic_stiffness = '100 kN/m'\npost_yield_stiffness = '30 kN/m'\n"
+        "yield_force = '800 N'\ndamping = 0\nexponent = 2\n"
+        "[oscillator.right]\nkind = 'power'\nstiffness = '2 MN/m^1.5'\ngap = '5 mm'\n"
+        "[oscillator.left]\nkind = 'rigid'\nrestitution = 0.5\ngap = '7 mm'\n"
+        "[excitation]\namplitude = '0.05 g'\n"
+    )
+    code, out, errors = run("own.toml")
+    assert (code, errors) == (0, "")
+    listed = out[out.index("Parameters by path") :]
+    for path, text in (
+        ("frequency", "open"),
+        ("amplitude", "0.05 g"),
+        ("isolator.yield_force", "800 N"),
+        ("isolator.exponent", "2 +a whole number, which cannot be varied"),
+        ("gap", "differs between the stops"),
+        ("stops.left.gap", "7 mm"),
+        ("stops.right.stiffness", r"2000 kN/m\^1.5"),
+        ("restitution", None),
+        ("damping_ratio", None),
+    ):
+        assert bool(re.search(rf"^{re.escape(path)} +{text}$", listed, re.M)) == (text is not None)
+    values = json.loads(run("own.toml", "--json")[1])["parameters"]
+    assert values["isolator.yield_force"] == 800.0
+    assert (values["isolator.exponent"], values["gap"], values["stops.left.gap"]) == (2, None, 7e-3)
+    for path in [
+        path for path, value in values.items() if value is not None and path != "amplitude"
+    ]:
+        assert run("own.toml", "--set", f"{path}={values[path]!r}")[0] == 0, path
+
+
 def test_without_units(run, tmp_path) -> None:
     (tmp_path / "pair.toml").write_text(
         "[assembly]\nunits = 'none'\nmasses = {a = 1, b = 2}\n"

@@ -81,7 +81,7 @@ def test_amplitude_of_the_study_comes_before_that_of_the_case(write):
 def test_tables_of_the_commands(write):
     study = read_study(
         write(
-            'case = "B2-G1-A3"\n[sweep]\nfrom = "300 mHz"\nto = 4\ndirection = "forward"\n'
+            'case = "B2-G1-A3"\n[sweep]\nfrom = "300 mHz"\nto = "4 Hz"\ndirection = "forward"\n'
             "max_cycles = 500\ntolerance = 1e-9\n"
             '[simulate]\nfrequency = "2.5 Hz"\nvelocity = "-10 mm/s"\n'
         )

@@ -74,6 +74,10 @@ def isolator(table):
             OWN + '[sweep]\ndirection = "up"\n',
             "sweep.direction: 'up' is unknown; use 'forward', 'backward' or 'both'",
         ),
+        (
+            OWN + '[sweep]\nfrom = "6 rad/s"\nto = 20\n',
+            "sweep: from, to: '6 rad/s' has a unit and 20 has none; write both with units",
+        ),
         (OWN + "[sweep]\nmax_cycles = 1.5\n", "sweep.max_cycles: 1.5 is not a whole number"),
         (OWN + "[sweep]\nmax_cycles = true\n", "sweep.max_cycles: True is not a whole number"),
         (OWN + "[sweep]\nmax_cycles = -3\n", "sweep.max_cycles: -3 is less than 1"),

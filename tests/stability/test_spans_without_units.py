@@ -18,7 +18,7 @@ SI = vi.Rig(STATED.oscillator.replace(units="SI"), STATED.shaking)
 BOX = {"velocity": (-1, 1)}
 
 CALLS = {
-    "branch": lambda rig, five: vi.branch(rig, vary={"gap": (1, five)}),
+    "branch": lambda rig, five: vi.branch(rig, vary={"gap": (0, five)}),
     "branch of a damping": lambda rig, five: vi.branch(
         rig, vary={"isolator.damping": (0.2, five.replace("m", "N s/m"))}
     ),
@@ -28,13 +28,13 @@ CALLS = {
         vi.branch(rig, vary={"frequency": (0.05, 0.2)}).isel(bifurcation=0),
         vary={"frequency": (0.05, 0.2), "gap": (0, five)},
     ),
-    "basins": lambda rig, five: vi.basins(rig, (-5, five), nodes=2, **BOX),
+    "basins": lambda rig, five: vi.basins(rig, (0, five), nodes=2, **BOX),
     "basin_stability": lambda rig, five: vi.basin_stability(rig, (-5, five), states=2, **BOX),
     "scenario_map": lambda rig, five: vi.scenario_map(
         rig, {"gap": [1, five], "gap_ratio": [0.5, 1.0]}
     ),
     "ensemble": lambda rig, five: vi.ensemble(
-        rig, {"gap": f"uniform:1:{five}"}, partial(vi.sweeps, frequencies=[0.1]), draws=2
+        rig, {"gap": f"uniform:0:{five}"}, partial(vi.sweeps, frequencies=[0.1]), draws=2
     ),
     "simulate": lambda rig, five: vi.simulate(
         vi.Rig(rig.oscillator, vi.Record(np.ones(9), 0.1)), tail=five.replace("m", "s")

@@ -61,6 +61,12 @@ def test_refused(wrong):
         distribution(wrong, GAP, lambda: 8e-3, "x")
 
 
+@pytest.mark.parametrize("kind", ["uniform:3mm:7", "normal:3mm:7", "triangular:0:3mm:7"])
+def test_units_of_some_numbers_only_are_refused(kind):
+    with pytest.raises(vi.InputError, match=r"^x: '3mm' has a unit and '7' has none; write both"):
+        distribution(kind, GAP, lambda: 8e-3, "x")
+
+
 @pytest.mark.parametrize(
     ("name", "value", "accepted"),
     [

@@ -65,7 +65,7 @@ def ensemble(
     ----------
     uncertain
         Parameter and its distribution, such as gap=normal:7.5mm:0.5mm. The option may be repeated.
-        An unknown path lists those of the rig. The distributions are
+        vibroimpact show lists the paths of a rig. The distributions are
         normal:MEAN:DEVIATION, normal:MEAN:DEVIATION:LOW:HIGH (truncated to the range from LOW to
         HIGH), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH and lognormal:MEDIAN:SIGMA. SIGMA is the
         standard deviation of the natural logarithm of the parameter. Three short forms use the

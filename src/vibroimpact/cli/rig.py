@@ -25,7 +25,7 @@ from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.names import check_name, file_stem, kept_letters, literal
-from vibroimpact.model.parameters import canonical, parameters, set_values
+from vibroimpact.model.parameters import canonical, check_units_kept, parameters, set_values
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.rig import Rig, one_mass_only, several_masses_only, with_stated_units
@@ -340,12 +340,14 @@ def changed(
     Raises
     ------
     InputError
-        If a path does not exist, if a value is invalid, or if a new stop is not described
-        completely.
+        If a path does not exist, if a value is invalid, if a new stop is not described completely,
+        or if an exponent is set without a number whose unit depends on it.
     """
     read = {path: None if text.lower() == "none" else text for path, text in values.items()}
     try:
-        return set_values(Rig.of_open_frequency(system, shaking), read).system
+        made = set_values(Rig.of_open_frequency(system, shaking), read).system
+        check_units_kept(system, made, read)
+        return made
     except InputError as error:
         raise InputError(f"--set: {str(error).removeprefix('parameter: ')}") from None
 

@@ -15,11 +15,11 @@ def show(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Print the rig, its natural frequencies, modes and static equilibrium, and draw it.
+    """Print the rig, its natural frequencies, modes, equilibrium and parameters, and draw it.
 
-    Nothing is simulated. The drawing shows the masses, the links, and the stops with their gaps to
-    scale. Modes are those without stops; curved links have their initial stiffness. The command
-    writes this file (--name sets NAME):
+    It lists the paths of the parameters with their values. Nothing is simulated. The drawing shows
+    the masses, the links, and the stops with their gaps to scale. Modes are those without stops;
+    curved links have their initial stiffness. The command writes this file (--name sets NAME):
 
     - NAME-system.png: the drawing
 
@@ -31,15 +31,18 @@ def show(
     """
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
+    from vibroimpact.facts import parameter_values
     from vibroimpact.facts import system as facts
     from vibroimpact.figures.assembly import oscillator_drawing
 
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
     summary = facts.facts(what.system)
+    values = parameter_values.facts(what.rig)
     with results(what, output) as written:
         if what.system.by_mass:
             drawn = figures.assembly_drawing(what.assembly, title=what.title)
         else:
             drawn = oscillator_drawing(what.oscillator, title=what.title)
         written.draw("drawing", "system", drawn)
-    return written.tell(summary, facts.text(summary))
+    summary_text = facts.text(summary), parameter_values.text(what.rig)
+    return written.tell({**summary, "parameters": values}, *summary_text)

@@ -25,11 +25,18 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, create_model, model_validator
+from pydantic import (
+    BeforeValidator,
+    Field,
+    ModelWrapValidatorHandler,
+    create_model,
+    model_validator,
+)
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, study
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
+from vibroimpact.model.quantity_lists import check_stated_units
 from vibroimpact.model.validation import Accepts
 from vibroimpact.model.wrong_kinds import NumberOrText, WholeNumber
 
@@ -58,6 +65,15 @@ class _SweepTable(Model):
         """The lowest frequency in Hz. Its key in the file is ``from``."""
         value: float | None = getattr(self, "from")
         return value
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _with_both_units(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        table = handler(data)
+        if isinstance(data, Mapping):
+            ends = [data[key] for key in ("from", "to") if data.get(key) is not None]
+            check_stated_units(ends, FREQUENCY, "from, to")
+        return table
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:

@@ -44,8 +44,8 @@ Each replaces a value of the case or of the study file. A value without a unit i
 - `--set PATH=VALUE`: any other value, and may be repeated. Of one mass: `mass=550kg`,
   `isolator.stiffness=30kN/m`, `stops.stiffness=1MN/m` (both stops), `right.gap=9mm`,
   `isolator_period=2.5s`, `damping_ratio=0.15`. Of several: `stops.pounding.gap=1cm`,
-  `masses.roof=200t`. `left=none` removes the left stop, and `isolator=none` the isolator. An
-  unknown path lists those of the rig.
+  `masses.roof=200t`. `left=none` removes the left stop, and `isolator=none` the isolator.
+  `vibroimpact show` lists the paths of a rig.
 - `--parameters`: parameter set of a laboratory case. Default: the set in the study file, or table.
   - table (all cases): Table 1 and Section 7 of the paper by Stefani, De Angelis and Andreaus.
   - identified (only B2-G1-A3 and B2-G2-A2): what Section 5 of this paper identifies from single

@@ -19,8 +19,9 @@ MOST = 4_000_000
 """Largest number of values in a range."""
 HELP = (
     "Parameter that is varied and its range, PATH=LOW:HIGH, such as frequency=0.9Hz:1.3Hz, "
-    "gap=3mm:7mm (both stops), right.gap=3mm:7mm, stops.stiffness=100kN/m:1MN/m or "
-    "isolator.damping=0:2kN*s/m. An unknown path lists those of the rig."
+    "gap=3mm:7mm (both stops), right.gap=3mm:7mm, stops.stiffness=100kN/m:1MN/m, "
+    "isolator.damping=0:2kN*s/m or isolator.yield_force=100N:400N. vibroimpact show lists the "
+    "paths of a rig."
 )
 FREQUENCY_HELP = (
     "Default: the frequency, over the range in the study file (table [sweep]). If the file states "

@@ -100,7 +100,7 @@ def text(data: xr.Dataset) -> RenderableType:
         *([Column("contacts", _contacts, left=True)] if data.sizes["stop"] else []),
         Column(name, ("from", "to"), 6, data[name].attrs["units"]),
         Column("values", "values"),
-        Column("largest exponent in range", "largest_exponent", units="1/s"),
+        Column("exponent at most", "largest_exponent", units="1/s"),
     )
     parts: list[RenderableType] = []
     for start, ranges in summary["starts"].items():

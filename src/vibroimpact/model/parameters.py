@@ -57,6 +57,7 @@ from vibroimpact.model.stops import STOPS
 from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model
+from vibroimpact.model.written_units import has_no_units
 
 _QUANTITIES = (
     FREQUENCY,
@@ -225,6 +226,11 @@ def parameters(rig: Rig) -> dict[str, Parameter]:
     }
 
 
+def whole_number_paths(system: System) -> dict[str, int]:
+    """Return the values of the fields that take whole numbers only, by path; they can be set."""
+    return {_path(steps): value for steps, value in whole_numbers(system)}
+
+
 def canonical(path: object, known: Iterable[str]) -> str:
     """Return the path under which a parameter is known, such as ``stops.right.gap``.
 
@@ -297,6 +303,34 @@ def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
         elif name in named:
             rig = _with_derived(rig, name, named[name])
     return rig
+
+
+def check_units_kept(before: System, after: System, paths: Iterable[str]) -> None:
+    """Refuse a change after which a number, which no path sets, has another unit.
+
+    The unit of a stiffness may depend on an exponent: 2 MN/m^1.5 would become 2 MN/m^2.5.
+
+    Raises
+    ------
+    InputError
+        If there is such a number, unless it is 0 or the system has no units.
+    """
+    if has_no_units(after):
+        return
+    places = _places(after)
+    names = {canonical(path, places) for path in paths}
+    stated = {place.steps for name in names for place in places.get(name, ())}
+    old = {one.steps: one for one in walk(before)}
+    for place in walk(after):
+        one = old.get(place.steps)
+        if one is None or place.steps in stated:
+            continue
+        quantity, other = one.accepts.quantity, place.accepts.quantity
+        if quantity.symbol != other.symbol and one.value == place.value != 0.0:
+            raise InputError(
+                f"{_path(place.steps)}: the other exponent would turn "
+                f"{pretty(one.value, quantity)} into {pretty(one.value, other)}; set it, too"
+            )
 
 
 _SAME = (
@@ -451,7 +485,7 @@ def _unknown(path: object, rig: Rig, field: str) -> InputError:
     name = path.strip().lower() if isinstance(path, str) else ""
     if (symbol := name.replace("_", "")) in _SYMBOLS:
         return InputError(f"{field}: {path!r} is not a name of a parameter; use {_SYMBOLS[symbol]}")
-    known, whole = list(parameters(rig)), list(map(_path, whole_numbers(rig.system)))
+    known, whole = list(parameters(rig)), list(whole_number_paths(rig.system))
     if (one := canonical(path, whole)) in whole:
         how = (
             f"run the command once per value, with --set {one}=VALUE"

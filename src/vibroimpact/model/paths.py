@@ -44,8 +44,8 @@ def walk(part: Any, steps: Steps = ()) -> Iterator[Place]:
                 yield from walk(child, (*steps, name))
 
 
-def whole_numbers(part: Any, steps: Steps = ()) -> Iterator[Steps]:
-    """Yield the places of fields that take whole numbers only, which cannot be varied."""
+def whole_numbers(part: Any, steps: Steps = ()) -> Iterator[tuple[Steps, int]]:
+    """Yield place and value of the fields that take whole numbers only, which cannot be varied."""
     if isinstance(part, Mapping):
         for key, value in part.items():
             yield from whole_numbers(value, (*steps, key))
@@ -53,7 +53,7 @@ def whole_numbers(part: Any, steps: Steps = ()) -> Iterator[Steps]:
         for name in type(part).model_fields:
             value = getattr(part, name)
             if type(value) is int:
-                yield (*steps, name)
+                yield (*steps, name), value
             yield from whole_numbers(value, (*steps, name))
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.quantity_lists import check_stated_units
 from vibroimpact.model.units import pretty, to_si
 
 _Array = NDArray[np.float64]
@@ -117,6 +118,8 @@ def _made(
             made = scipy.stats.triang((middle - first) / (last - first), first, last - first)
         case _:
             raise _Unknown
+    if kind != "lognormal" and len(texts) > 1:
+        check_stated_units(texts, varied.quantity, field)
     return made
 
 
