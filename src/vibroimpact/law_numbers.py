@@ -35,7 +35,7 @@ class IsolatorNumbers(NamedTuple):
     """What an isolator does besides its spring and dashpot.
 
     The force is K u + cubic u³ + quintic u⁵ + 2 sinh · sinh(sinh_rate u) + hysteretic z, with
-    z′ = u′ (slope − (turning s_v + knee s_z) |z|^sharpness), s_v and s_z the signs of u′ and of z;
+    z′ = u′ (slope − (knee + turning s_v s_z) |z|^sharpness), s_v and s_z the signs of u′ and of z;
     with a limit, z′ = u′ as long as |z| stays below it. The dashpot has C |u′|^drag. A friction
     force, and a formula (`pack`), come on top.
     """

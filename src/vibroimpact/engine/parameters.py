@@ -43,7 +43,7 @@ FORCING = LOAD + 4  # HARMONIC, SEVERAL or RAMP
 HARMONICS = LOAD + 5  # how many
 INTERVAL = LOAD + 6  # between the samples of a record, s; infinite if there is none
 # What the isolator does besides: STIFFNESS u + CUBIC u³ + QUINTIC u⁵ + 2 SINH sinh(SINH_RATE u)
-# + HYSTERETIC z, with z′ = u′ (SLOPE − (TURNING s_v + KNEE s_z) |z|ⁿ), s_v and s_z the signs of
+# + HYSTERETIC z, with z′ = u′ (SLOPE − (KNEE + TURNING s_v s_z) |z|ⁿ), s_v and s_z the signs of
 # u′ and of z; with a LIMIT z′ = u′ as long as |z| stays below it. DAMPING |u′|^POWER_OF_V.
 CUBIC = LOAD + 7
 QUINTIC = LOAD + 8

@@ -152,7 +152,6 @@ class StopWithMemory(StopLaw):
         return deformation
 
 
-
 class FormulaStop(StopLaw):
     """Base class of the stops without memory whose force is given by a formula.
 
