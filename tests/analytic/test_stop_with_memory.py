@@ -1,4 +1,4 @@
-"""A stop that remembers: a light pad on links, against the equations of a pad without mass."""
+"""A stop that remembers: as a kind, and as a light pad on links, against its equations."""
 
 from __future__ import annotations
 
@@ -7,6 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
+from vibroimpact.engine import lyapunov
+from vibroimpact.engine.state import FIRST
+from vibroimpact.model import equilibrium
+from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
+from vibroimpact.response.engine_system import engine_rig
 
 K, C, GAP = 100.0, 1.0, 0.02
 DRIVE = vi.Harmonic(3.0, 2.0)
@@ -41,15 +46,15 @@ def with_solid(mass: float) -> float:
     return padded(mass, links, {"pad": mass, "inner": mass})
 
 
-def solid_without_mass() -> float:
-    """The same by DOP853 from event to event; y is the dashpot's end."""
+def solid_without_mass(cycles: float = CYCLES) -> np.ndarray:
+    """u, u̇, the dashpot's end y and what the dashpot has lost, by DOP853 from event to event."""
     amplitude, omega = DRIVE.amplitude, 2.0 * np.pi * DRIVE.frequency
 
     def push(u: float, y: float) -> float:
         return STIFF * (u - GAP) + RELAXING * (u - GAP - y)
 
     def clearance(t, state, touching):
-        u, _, y = state
+        u, _, y, _ = state
         return GAP + RELAXING * y / (STIFF + RELAXING) - u
 
     def pushed(t, state, touching):
@@ -59,21 +64,22 @@ def solid_without_mass() -> float:
         event.terminal, event.direction = True, -1.0
 
     def rates(t, state, touching):
-        u, v, y = state
+        u, v, y, _ = state
         force = push(u, y) if touching else 0.0
         depth = u - GAP if touching else RELAXING * y / (STIFF + RELAXING)
         acceleration = -amplitude * np.sin(omega * t) - K * u - C * v - force
-        return v, acceleration, RELAXING * (depth - y) / DASHPOT
+        rate = RELAXING * (depth - y) / DASHPOT
+        return v, acceleration, rate, DASHPOT * rate * rate
 
-    t, state, touching = 0.0, np.zeros(3), False
-    end = CYCLES / DRIVE.frequency
+    t, state, touching = 0.0, np.zeros(4), False
+    end = cycles / DRIVE.frequency
     while t < end:
         done = solve_ivp(
             rates, (t, end), state, "DOP853", args=(touching,), rtol=1e-12, atol=1e-14,
             events=pushed if touching else clearance,
         )  # fmt: skip
         t, state, touching = done.t[-1], done.y[:, -1], not touching
-    return float(state[0])
+    return state
 
 
 def bumper_without_mass() -> float:
@@ -83,20 +89,115 @@ def bumper_without_mass() -> float:
 
 @pytest.mark.parametrize("mass", [1e-3, 1e-4, 1e-5])
 @pytest.mark.parametrize(
-    ("light", "massless"), [(with_bumper, bumper_without_mass), (with_solid, solid_without_mass)]
+    ("light", "massless"),
+    [(with_bumper, bumper_without_mass), (with_solid, lambda: float(solid_without_mass()[0]))],
 )
 def test_the_difference_is_proportional_to_the_mass_of_the_pad(light, massless, mass) -> None:
     assert 0.02 * mass < light(mass) - massless() < 0.04 * mass
 
 
-def test_a_memory_of_its_own_is_that_of_a_pad_without_mass() -> None:
-    stop = vi.ZenerBumper(STIFF, RELAXING, DASHPOT, GAP)
-    system = vi.Assembly(
+SOLID = vi.ZenerBumper(STIFF, RELAXING, DASHPOT, GAP)
+
+
+def alone(stop: vi.ZenerBumper | vi.Bumper, *, side: str = "right") -> vi.Assembly:
+    ends = ("body", "ground") if side == "right" else ("ground", "body")
+    return vi.Assembly(
         masses={"body": 1.0},
         links={"spring": vi.Link("ground", "body", vi.Isolator(K, C))},
-        stops={"face": vi.Link("body", "ground", stop)},
+        stops={"face": vi.Link(*ends, stop)},
     )
-    motion = vi.simulate(vi.Rig(system, DRIVE), CYCLES)
-    assert float(motion["displacement"].sel(mass="body")[-1]) == pytest.approx(
-        solid_without_mass(), rel=0.0, abs=1e-12
+
+
+@pytest.mark.parametrize(("cycles", "pressed"), [(CYCLES, False), (1.85, True)])
+def test_a_solid_is_followed_as_its_equations_say(cycles: float, pressed: bool) -> None:
+    """Losses are those of its dashpot, and the energies balance, also while it is pressed."""
+    motion = vi.simulate(vi.Rig(alone(SOLID), DRIVE), cycles)
+    u, v, y, lost = solid_without_mass(cycles)
+    assert (float(motion["clearance"][0, -1]) == 0.0) == pressed
+    assert float(motion["displacement"][0, -1]) == pytest.approx(u, rel=0.0, abs=1e-12)
+    assert float(motion["velocity"][0, -1]) == pytest.approx(v, rel=0.0, abs=1e-11)
+    face = float(motion["final_state"].sel(component="deformation.face"))
+    assert face == pytest.approx(RELAXING * y / (STIFF + RELAXING), rel=0.0, abs=1e-13)
+    whole = vi.totals(motion)
+    assert float(whole["total_stops"][0]) == pytest.approx(lost, rel=1e-9)
+    rest = sum(float(whole[f"total_{name}"].sum()) for name in ("links", "stops", "stored"))
+    assert rest == pytest.approx(float(whole["total_supplied"]), rel=1e-12)
+
+
+def test_on_the_other_side_it_is_the_mirror_image() -> None:
+    right = vi.simulate(vi.Rig(alone(SOLID), DRIVE), CYCLES)
+    shifted = vi.Rig(alone(SOLID, side="left"), DRIVE.replace(phase=DRIVE.phase + np.pi))
+    left = vi.simulate(shifted, CYCLES)
+    np.testing.assert_allclose(
+        left["displacement"].values, -right["displacement"].values, rtol=0.0, atol=1e-13
     )
+
+
+@pytest.mark.parametrize(
+    ("dampings", "stiffness", "power"),
+    [((0.1, 0.01), STIFF, 1.0), ((1e6, 1e7), STIFF + RELAXING, -1.0)],
+)
+def test_a_weak_dashpot_leaves_one_spring_and_a_strong_one_both(dampings, stiffness, power) -> None:
+    """The difference from elastic stops is proportional to c, or to 1/c."""
+    elastic = vi.simulate(vi.Rig(alone(vi.Bumper(stiffness, 0.0, GAP)), DRIVE), 2)["displacement"]
+    solids = [
+        vi.simulate(vi.Rig(alone(SOLID.replace(damping=c)), DRIVE), 2)["displacement"]
+        for c in dampings
+    ]
+    first, second = (float(abs(one - elastic).max()) for one in solids)
+    assert first < 1e-3
+    assert first / second == pytest.approx((dampings[0] / dampings[1]) ** power, rel=0.05)
+
+
+def test_derivative_of_a_cycle() -> None:
+    rig = vi.Rig(alone(SOLID), DRIVE)
+    final = as_assembly_state(vi.simulate(rig, 3.4)["final_state"], rig.system)
+    start = assembly_vector(rig.system, final)
+
+    def moved(vector):
+        q, damping, vector = np.zeros((3, 3)), np.zeros(1), vector.copy()
+        outcome = lyapunov.monodromy(
+            engine_rig(rig), DRIVE.amplitude, DRIVE.frequency, 0.0, vector, 1, 1000, q, damping
+        )
+        assert outcome == 0
+        return q, vector[FIRST : FIRST + 3], float(damping[0])
+
+    exact, _, damping = moved(start)
+    rows = []
+    for i in range(3):
+        ends = []
+        for sign in (1.0, -1.0):
+            near = start.copy()
+            near[FIRST + i] += sign * 1e-7
+            ends.append(moved(near)[1])
+        rows.append((ends[0] - ends[1]) / 2e-7)
+    np.testing.assert_allclose(exact, rows, rtol=0.0, atol=1e-6 * np.abs(exact).max())
+    assert np.log(abs(np.linalg.det(exact))) == pytest.approx(-damping, rel=1e-9)
+
+
+def test_a_preload_that_has_lasted_is_at_rest() -> None:
+    system = alone(SOLID.replace(gap=-0.01))
+    state = equilibrium(system)
+    u = -STIFF * 0.01 / (K + STIFF)
+    assert state.displacement["body"] == pytest.approx(u, rel=1e-12)
+    motion = vi.simulate(vi.Rig(system, vi.Harmonic(1e-12, 2.0)), 3, state)
+    np.testing.assert_allclose(motion["displacement"].values, u, rtol=0.0, atol=1e-12)
+    assert float(motion["contact_force"].min()) == pytest.approx(STIFF * (0.01 + u), rel=1e-9)
+
+
+def test_its_force_along_a_contact_is_that_of_its_equations() -> None:
+    t = np.linspace(0.0, 0.05, 2001)
+    d, v = 0.003 * np.sin(np.pi * t / 0.05), 0.003 * np.pi / 0.05 * np.cos(np.pi * t / 0.05)
+    rate = RELAXING / DASHPOT
+    y = solve_ivp(
+        lambda t, y: rate * (0.003 * np.sin(np.pi * t / 0.05) - y),
+        (0.0, 0.05), [0.0], "DOP853", t, rtol=1e-12, atol=1e-15,
+    ).y[0]  # fmt: skip
+    expected = np.maximum(STIFF * d + RELAXING * (d - y), 0.0)
+    np.testing.assert_allclose(SOLID.force(d, v), expected, rtol=0.0, atol=1e-5)
+    assert SOLID.force(d, np.zeros_like(d)) == pytest.approx(STIFF * d)
+
+
+def test_an_oscillator_refuses_it() -> None:
+    with pytest.raises(vi.InputError, match=r"^left: a ZenerBumper is a stop of assemblies only"):
+        vi.Oscillator(1.0, vi.Isolator(K, C), left=SOLID)

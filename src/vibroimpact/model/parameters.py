@@ -53,7 +53,7 @@ from vibroimpact.model.quantities import (
     of_power,
 )
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.stops import STOPS
+from vibroimpact.model.stops import STOPS, StopWithMemory
 from vibroimpact.model.system import System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model
@@ -559,9 +559,11 @@ def _of_part(name: str, first: Place) -> Parameter:
 
 
 def _fields(kinds: Kinds) -> dict[str, Accepts]:
-    """Return the numbers that laws can have, with their usual quantity."""
+    """Return the numbers that laws of an oscillator can have, with their usual quantity."""
     fields: dict[str, Accepts] = {}
     for law in kinds.classes.values():
+        if issubclass(law, StopWithMemory):
+            continue
         for name, field in law.model_fields.items():
             accepts = next((one for one in field.metadata if isinstance(one, Accepts)), None)
             if accepts is not None:
