@@ -149,6 +149,17 @@ def test_a_weak_dashpot_leaves_one_spring_and_a_strong_one_both(dampings, stiffn
     assert first / second == pytest.approx((dampings[0] / dampings[1]) ** power, rel=0.05)
 
 
+@pytest.mark.parametrize("phase", range(7))
+def test_without_a_gap_it_is_met_at_rest(phase: int) -> None:
+    """Where the bodies meet at u = 0, all terms of the force vanish; a gap of 1e-12 m is as good."""
+    drive = vi.Harmonic(1.0, 0.5, float(phase))
+    ends = [
+        vi.simulate(vi.Rig(alone(SOLID.replace(gap=gap)), drive), 3)["displacement"][0, -1]
+        for gap in (0.0, 1e-12)
+    ]
+    assert float(ends[0]) == pytest.approx(float(ends[1]), rel=0.0, abs=1e-10)
+
+
 def test_derivative_of_a_cycle() -> None:
     rig = vi.Rig(alone(SOLID), DRIVE)
     final = as_assembly_state(vi.simulate(rig, 3.4)["final_state"], rig.system)

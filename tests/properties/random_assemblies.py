@@ -58,7 +58,19 @@ def random_assembly(rng: np.random.Generator) -> tuple[vi.Assembly, vi.Harmonic]
         float(10.0 ** rng.uniform(-0.7, 0.7)) / math.tau,
         float(rng.uniform(0, 6)),
     )
+    if rng.random() < 0.25:  # drawn last, so that the others stay what they were
+        stops = {name: relaxing(rng, one) for name, one in stops.items()}
     return vi.Assembly(masses, links=links, stops=stops, forces=forces), shaken
+
+
+def relaxing(rng: np.random.Generator, stop: vi.Link) -> vi.Link:
+    """The same stop, but a solid where it was a bumper."""
+    law = stop.law
+    if not isinstance(law, vi.Bumper):
+        return stop
+    first = law.stiffness * float(10.0 ** rng.uniform(-1, 1))
+    solid = vi.ZenerBumper(law.stiffness, first, first * float(10.0 ** rng.uniform(-2, 1)), law.gap)
+    return vi.Link(stop.left, stop.right, solid)
 
 
 def mirrored(assembly: vi.Assembly, shaken: vi.Harmonic) -> tuple[vi.Assembly, vi.Harmonic]:

@@ -122,9 +122,9 @@ def faults(assembly: vi.Assembly, data: xr.Dataset, status: str) -> list[str]:
             wrong.append(f"stop {name} pulls with {-pulled:g} N")
         if float(data["deformation"].sel(stop=name).min()) < -1e-12 * size:
             wrong.append(f"stop {name} is stretched")
-        if isinstance(stop.law, vi.RigidStop | vi.Bumper):
+        if isinstance(stop.law, vi.RigidStop | vi.Bumper | vi.ZenerBumper):
             depth = w @ data["displacement"].values - stop.law.gap
-            if isinstance(stop.law, vi.Bumper):
+            if not isinstance(stop.law, vi.RigidStop):
                 depth = depth - data["deformation"].sel(stop=name).values
             if depth.max() > EXACT * size + FORGOTTEN:
                 wrong.append(f"stop {name} is passed by {depth.max():g} of {size:g} m")

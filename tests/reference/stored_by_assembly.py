@@ -41,6 +41,11 @@ def stored(assembly: vi.Assembly, state: xr.DataArray) -> float:
         depth, law = at(link.left) - at(link.right) - link.law.gap, link.law
         if isinstance(law, vi.Bumper):
             held += law.stiffness * of("deformation", name) ** 2 / 2
+        elif isinstance(law, vi.ZenerBumper):
+            face, k = of("deformation", name), law.relaxing_stiffness
+            d = depth if of("touching", name) else face
+            stretched = d - face * (law.stiffness + k) / k
+            held += law.stiffness * d**2 / 2 + k * stretched**2 / 2
         elif of("touching", name) and isinstance(law, vi.Law):
             held += quad(law.read.value, 0.0, depth, (0.0,), epsabs=1e-14)[0]
         elif of("touching", name) and not isinstance(law, vi.RigidStop):

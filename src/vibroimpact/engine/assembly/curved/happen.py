@@ -273,6 +273,8 @@ def switch(
         return _turned(plan, mode, f, which, y, deformation), TURN
     if int(plan[row_of(plan, f) + of.BEHAVIOUR]) == of.MEMORY_STOP:
         zeros[f] = 1.0
+        # The bodies are at the face, exactly, so that its force begins or ends there.
+        deformation[f] = closing(plan, f, y) - plan[one + at.GAP]
         if mode >> f & 1:
             return mode & ~(1 << f), DETACHMENT
         let_part(plan, mode, f)
