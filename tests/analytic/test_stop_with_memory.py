@@ -151,7 +151,7 @@ def test_a_weak_dashpot_leaves_one_spring_and_a_strong_one_both(dampings, stiffn
 
 @pytest.mark.parametrize("phase", range(7))
 def test_without_a_gap_it_is_met_at_rest(phase: int) -> None:
-    """Where the bodies meet at u = 0, all terms of the force vanish; a gap of 1e-12 m is as good."""
+    """Where bodies meet at u = 0, all terms of the force vanish; a gap of 1e-12 m is as good."""
     drive = vi.Harmonic(1.0, 0.5, float(phase))
     ends = [
         vi.simulate(vi.Rig(alone(SOLID.replace(gap=gap)), drive), 3)["displacement"][0, -1]
