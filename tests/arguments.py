@@ -210,6 +210,12 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "Isolator": {"stiffness": 1.0, "damping": 1.0, "damping_exponent": 1.0},
         "JankowskiBumper": {"stiffness": 1.0, "gap": 0.1, "restitution": 0.5, "mass": 1.0},
+        "ZenerBumper": {
+            "stiffness": 1.0,
+            "relaxing_stiffness": 1.0,
+            "damping": 0.1,
+            "gap": 0.1,
+        },
         "Link": {"left": "a", "right": "b", "law": vi.Isolator(1.0, 0.1)},
         "ModalDamping": {"ratio": [0.1, 0.2]},
         "RayleighDamping": {"mass_factor": 0.1, "stiffness_factor": 0.01},

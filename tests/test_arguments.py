@@ -45,6 +45,7 @@ QUICK = [
     "RigidStop",
     "State",
     "Thresholds",
+    "ZenerBumper",
     "chain",
     "compare_fits",
     "contacts",

@@ -217,7 +217,7 @@ def test_the_tail_is_two_periods_of_the_softest_spring() -> None:
 
 def test_what_is_given_up_is_told() -> None:
     with pytest.warns(
-        RuntimeWarning, match="seismic_response: one forcing cycle or record step has more contacts"
+        RuntimeWarning, match="seismic_response: one forcing cycle or record step has more events"
     ):
         response = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)
     assert int(response["status"]) != 0

@@ -8,7 +8,6 @@ import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from formula_stops import FORMULA_STOPS
 from reference import fifty_digits, law_states, shaken_cases, shaken_states, store_law_states
 from reference import laws_mpmath as laws
 from reference import rig as rig_reference
@@ -20,7 +19,7 @@ from reference.public_motion import reference_shaking
 from reference.store_law_states import STORES, States, Store, marks
 from samples import sample
 from vibroimpact.model.isolators import ISOLATORS
-from vibroimpact.model.stops import STOPS
+from vibroimpact.model.stops import STOPS, FormulaStop, StopWithMemory
 
 TINY = mpf(10) ** -36
 ONE_EACH = (
@@ -112,9 +111,16 @@ def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
                     assert abs(one - digits) <= mpf("1e-23") * abs(digits)
 
 
-BY_FORMULA = {vi.Law, *FORMULA_STOPS.values()}
-BUILT_IN = {kinds: set(kinds.classes.values()) - BY_FORMULA for kinds in (ISOLATORS, STOPS)}
-"""A law given as a formula equals one of these to the bit: tests/engine/taylor/test_own_laws.py."""
+NOT_STORED = {
+    law
+    for law in STOPS.classes.values()
+    if law is vi.Law or issubclass(law, FormulaStop | StopWithMemory)
+}
+BUILT_IN = {kinds: set(kinds.classes.values()) - NOT_STORED for kinds in (ISOLATORS, STOPS)}
+"""A law given as a formula equals one of these to the bit: tests/engine/taylor/test_own_laws.py.
+
+Assemblies alone have stops with a memory: tests/analytic/test_stop_with_memory.py.
+"""
 
 
 @pytest.mark.parametrize("store", STORES, ids=lambda one: one.name)

@@ -200,7 +200,7 @@ def test_a_motion_that_is_given_up() -> None:
     slow = vi.Harmonic(CASE.amplitude, 0.3)
     with pytest.warns(
         RuntimeWarning,
-        match=r"^simulate stopped in cycle 0: one forcing cycle or record step has more contacts",
+        match=r"^simulate stopped in cycle 0: one forcing cycle or record step has more events",
     ):
         data = vi.simulate(vi.Rig(CASE.oscillator, slow), 5, samples=16, max_events=3)
     assert "raise max_events" in data.attrs["message"]
