@@ -166,7 +166,7 @@ def test_runs_that_are_given_up_are_told() -> None:
     with pytest.warns(
         RuntimeWarning,
         match=r"demands: \d of 2 runs could not be computed: one forcing cycle or record step has "
-        "more contacts",
+        "more events",
     ):
         data = vi.demands(RIGS["walls"], coarse, [1e-6, 1.0], max_events=1)
     assert data["status"].values.ravel().tolist() == [0, 2]
