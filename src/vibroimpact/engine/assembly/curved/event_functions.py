@@ -237,9 +237,10 @@ def _of_memory(
     gap = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.GAP]
     if mode >> f & 1:
         _times(plan, node(plan, row, of.FORCE_NODE, base), 1.0, a)
-        # Where it is zero its terms are not, and by these it is rounded.
+        # Where it is zero its terms are not, and by these, or what they become, it is rounded.
         first(plan, row, int(plan[row + of.LAST_OP]), int(plan[row + of.LAST_SLOPE]), base)
-        most = abs(plan[node(plan, row, of.BY_S, base)]) * (speeds(plan, f, y) + abs(gap))
+        extent = speeds(plan, f, y) + abs(gap) + size / plan[at.STIFF_RATE]
+        most = abs(plan[node(plan, row, of.BY_S, base)]) * extent
         most += abs(plan[node(plan, row, of.BY_V, base)]) * size
         z = node(plan, row, of.Z_NODE, base)
         most += abs(plan[node(plan, row, of.BY_Z, base)] * plan[z])
