@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import vibroimpact as vi
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.state import FIRST
-from vibroimpact.model import equilibrium
+from vibroimpact.model import AssemblyState, equilibrium
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
 from vibroimpact.response.engine_system import engine_rig
 
@@ -122,6 +122,37 @@ def test_a_solid_is_followed_as_its_equations_say(cycles: float, pressed: bool) 
     assert float(whole["total_stops"][0]) == pytest.approx(lost, rel=1e-9)
     rest = sum(float(whole[f"total_{name}"].sum()) for name in ("links", "stops", "stored"))
     assert rest == pytest.approx(float(whole["total_supplied"]), rel=1e-12)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_contacts_lose_what_the_whole_motion_does(periodic: bool) -> None:
+    """Pressed, and free until the next contact; faces come towards the body."""
+    rig = vi.Rig(alone(SOLID.replace(damping=200.0)), DRIVE)
+    motion = vi.steady(rig) if periodic else vi.simulate(rig, CYCLES, samples=8)
+    log, whole = vi.contacts(motion), vi.totals(motion)
+    lost = log["contact_dissipated"] + log["contact_dissipated_relaxing"]
+    assert float(lost.sum()) == pytest.approx(float(whole["total_stops"][0]), rel=1e-9)
+    assert (log["contact_dissipated_relaxing"] > 0.0).all()
+    if periodic:
+        return
+    # By DOP853 from event to event.
+    pressed, free = [0.012367, 0.033211, 0.03345, 0.01874], [0.000697, 0.002779, 0.003896, 0.002931]
+    of = {"dissipated": pressed, "dissipated_relaxing": free}
+    for name, values in of.items():
+        np.testing.assert_allclose(log[f"contact_{name}"][:4], values, rtol=0.0, atol=1e-6)
+    begins = motion["event_contact"].values == 1
+    u, v = (motion[f"event_{one}"].values[begins, 0] for one in ("displacement", "velocity"))
+    rate = STIFF * RELAXING / ((STIFF + RELAXING) * 200.0)
+    closing = v + rate * (u - GAP)
+    np.testing.assert_allclose(log["contact_closing_speed"], closing, rtol=1e-12, atol=0.0)
+
+
+@pytest.mark.parametrize("velocity", [0.0, 1e-9, -1e-9])
+def test_a_body_that_stands_at_a_relaxing_face_is_met_by_it(velocity: float) -> None:
+    state = AssemblyState({"body": 0.03}, {"body": velocity}, {"face": 0.01})
+    motion = vi.simulate(vi.Rig(alone(SOLID), DRIVE), 1, state)
+    assert float(motion["clearance"].min()) >= -1e-12
+    assert float(motion["contact_force"].max()) > 1.0
 
 
 def test_on_the_other_side_it_is_the_mirror_image() -> None:

@@ -165,6 +165,11 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
         elif isinstance(made := part.law.engine_numbers(), MemoryStop):
             d = state.deformation.get(name, 0.0)
             touches = reach > d + slack or (bool(said) and reach >= d - slack)
+            if touches and said is False:
+                raise InputError(
+                    f"start.touching: {name!r} is missing, but its face, which stands at {d:g} m, "
+                    f"is pressed in to {reach:g} m; add it to touching, or change deformation"
+                )
             if touches and memory_laws.LAWS[made.law].rate is None:
                 d = reach
             why = f"do not press it (distance {d - reach:g} m)"
@@ -253,6 +258,10 @@ def _parting(law: Stop, d: float, closing: float, speeds: float) -> int:
     The face of a relaxing bumper is left without relative speed, any other one at that of the
     bodies.
     """
+    if law.remembers:
+        made: Any = law.engine_numbers()
+        recedes = memory_laws.LAWS[made.law].free_rate(made.numbers, d) - closing
+        return 0 if recedes < 0.0 else 1 if recedes > 0.0 else 2
     if (pair := law.spring_and_dashpot) is not None and d > 0.0:
         spring = pair[0] * d
         return 2 if abs(spring + pair[1] * closing) <= TOUCHING * spring else 0

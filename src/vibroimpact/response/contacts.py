@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine.observers import phases as layout
+from vibroimpact.engine.state import FIRST
+from vibroimpact.engine.stops import memory_laws
 from vibroimpact.model import Record, Repeated
 from vibroimpact.model.argument_types import NonNegative
 from vibroimpact.model.public import public
+from vibroimpact.model.rig import several_masses_only
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import Origin, Phases, phases, recorded
 
@@ -83,6 +86,7 @@ def contact_log(
     every_kind = [_impacts(all_phases), *(_lasting(all_phases, origin, stop) for stop in stops)]
     chosen = _Contacts(*map(np.concatenate, zip(*every_kind, strict=True)))
     chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
+    chosen = _with_memories(chosen, motion, origin, all_phases)
     ahead, behind = (
         (all_phases.closing[chosen.stop] * v).sum(axis=1) for v in (chosen.arrival, chosen.parting)
     )
@@ -216,6 +220,44 @@ def _lasting(all_phases: Phases, origin: Origin, stop: int) -> _Contacts:
         peak,
         before + all_phases.of_mass(layout.A_TIME)[part[at], 0],
     )
+
+
+def _with_memories(
+    chosen: _Contacts, motion: xr.Dataset, origin: Origin, all_phases: Phases
+) -> _Contacts:
+    """Correct what the engine does not know of stops with a memory: energies, and their faces.
+
+    At a contact's ends the bodies are at the face, which is the memory. The engine counts what a
+    stop takes up while it is pressed, stored or lost.
+    """
+    if not origin.system.by_mass:
+        return chosen
+    system = several_masses_only(origin.system)
+    closing, lost, relaxing = (
+        one.copy() for one in (chosen.closing, chosen.dissipated, chosen.relaxing)
+    )
+    whole = float(motion["time"].values[-1] - motion["time"].values[0])
+    for stop, link in enumerate(system.stops.values()):
+        law, mine = link.stop, np.flatnonzero(chosen.stop == stop)
+        if not law.remembers or not len(mine):
+            continue
+        events = motion["event_stop"].values == all_phases.stops[stop]
+        times = motion["event_time"].values[events]
+        memory = motion["event_displacement"].values[events] @ all_phases.closing[stop] - law.gap
+        last = all_phases.final[FIRST + 2 * len(system.names) + stop]
+        energy = np.array([law.stored_energy(one, one) for one in [*memory, float(last)]])
+        made: Any = law.engine_numbers()
+        recedes = memory_laws.LAWS[made.law].free_rate
+        for k in mine:
+            begin, end = chosen.begin[k], chosen.begin[k] + chosen.length[k]
+            if origin.periodic and end > whole:  # cut in two by the section
+                end -= whole
+            at, left = (int(np.argmin(abs(times - when))) for when in (begin, end))
+            met = left + 1 if left + 1 < len(times) or not origin.periodic else 0
+            lost[k] -= energy[left] - energy[at]
+            relaxing[k] = energy[left] - energy[met]
+            closing[k] -= recedes(made.numbers, memory[at])
+    return chosen._replace(closing=closing, dissipated=lost, relaxing=relaxing)
 
 
 def _runs(all_phases: Phases, origin: Origin, stop: int) -> list[_Numbers]:

@@ -35,7 +35,7 @@ class StoredEnergy:
         self._memories = [memories.get(name) for name in links]
         pairs = [one.spring_and_dashpot for one in stops]
         self._springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
-        self._pressed = {
+        self._curved_stops = {
             f: one
             for f, (one, pair) in enumerate(zip(stops, pairs, strict=True))
             if pair is None and not one.rigid
@@ -51,14 +51,14 @@ class StoredEnergy:
             law.stored_energy(float(s), 0.0 if place is None else float(state[place]))
             for law, s, place in zip(self._curved, self._drifts @ u, self._memories, strict=True)
         )
-        return linear + curved + float(self.of_pressed(state).sum())
+        return linear + curved + float(self.of_curved(state).sum())
 
-    def of_pressed(self, state: _Array) -> _Array:
+    def of_curved(self, state: _Array) -> _Array:
         """Return the energy (J) of each stop without a linear spring; 0 of the others."""
         energies, mode = np.zeros(len(self._springs)), int(state[MODE])
         n = len(self._mass)
         u, memories = state[FIRST:][:n], state[FIRST:][2 * n :]
-        for f, law in self._pressed.items():
+        for f, law in self._curved_stops.items():
             pressed = mode >> f & 1
             depth = max(float(self._closing[f] @ u) - law.gap, 0.0)
             if law.remembers:

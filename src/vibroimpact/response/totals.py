@@ -154,7 +154,7 @@ def energies(all_phases: Phases) -> dict[str, Any]:
     energy = StoredEnergy(several_masses_only(system))
     links = all_phases.of_drift(layout.D_LOST).sum(axis=0)
     # The engine counts what a stop without memory takes up while it is touched, lost or not.
-    stops = stops - (energy.of_pressed(all_phases.final) - energy.of_pressed(all_phases.begin))
+    stops = stops - (energy.of_curved(all_phases.final) - energy.of_curved(all_phases.begin))
     stored, damping = energy.of(all_phases.final) - energy.of(all_phases.begin), lost - links.sum()
     rest = supplied - lost - stops.sum() - stored
     links[energy.lossy] += rest if energy.lossy.sum() == 1 else np.nan
