@@ -107,12 +107,12 @@ def test_different_motions_of_one_kind_are_told():
     assert one == {"from": values[0], "to": values[-1], "values": len(differ)}
     text = as_text(facts.text(data))
     low, high = (f"{1e-6 * end:g}" for end in values[[0, -1]])
-    assert f"\nDifferent motions from different starts: {low} to {high} MN/m³\n" in text
+    assert f"\nDifferent periodic motions from different starts: {low} to {high} MN/m³\n" in text
     assert "isolator.cubic (MN/m³)" in text
     assert "exponent at most (1/s)" in text
     same = data.isel({"isolator.cubic": slice(0, differ[0])})
     assert facts.facts(same)["different_motions"] == []
-    assert "Different motions" not in as_text(facts.text(same))
+    assert "Different periodic motions" not in as_text(facts.text(same))
     data["motion"][:] = "chaotic"  # which is compared with nothing
     assert facts.facts(data)["different_motions"] == []
 

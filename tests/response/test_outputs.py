@@ -268,14 +268,14 @@ def test_a_contact_that_the_start_of_the_period_cuts_is_whole():
     diagram = vi.bifurcation_diagram(
         RIG, {"frequency": (2.0, 2.3)}, 7, directions=["up"], outputs=own
     )
-    cut = 0
+    cut_at_start = 0
     for frequency, share in zip(swept["frequency"].values, swept["touched"].values, strict=True):
         at = swept.sel(frequency=frequency)
         motion = vi.steady(RIG, at["section"], frequency=float(frequency))
         touching = motion["touching"].any("stop").values
-        cut += bool(touching[0] and touching[-1])
+        cut_at_start += bool(touching[0] and touching[-1])
         assert share == pytest.approx(share_of_contact(motion), rel=1e-6)
-    assert cut > 3
+    assert cut_at_start > 3
     assert float(diagram["touched"][0, -1]) == pytest.approx(
         float(swept["touched"].sel(frequency=2.3, method="nearest")), rel=1e-6
     )

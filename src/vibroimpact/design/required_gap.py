@@ -123,7 +123,8 @@ def _of_assembly(
     else:
         if not assembly.linear:
             raise InputError(
-                "links: the gaps for sines require linear links; pass records, or use sweep"
+                "links: the gaps for sines require linear links and stops; pass records, or use "
+                "sweep"
             )
         sines = what.sines
         gaps = gaps_for_sines(assembly, sines.shaken, (sines.low, sines.high))

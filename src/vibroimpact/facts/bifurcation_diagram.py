@@ -54,10 +54,10 @@ def _different(data: xr.Dataset) -> list[dict[str, Any]]:
         ],
         axis=(0, 2),
     )
-    apart = spread > _EQUAL * size
+    differs = spread > _EQUAL * size
     return [
         {"from": float(values[first]), "to": float(values[last]), "values": last - first + 1}
-        for first, last in runs(apart)
+        for first, last in runs(differs)
     ]
 
 
@@ -135,7 +135,8 @@ def _different_text(ranges: list[dict[str, Any]], along: xr.DataArray) -> str:
     before = "ω = " if words == "ω" else ""
     more = f" and {len(ranges) - _MOST} more ranges" if len(ranges) > _MOST else ""
     return (
-        f"Different motions from different starts: {before}{', '.join(texts)} {scale.symbol}"
+        f"Different periodic motions from different starts: "
+        f"{before}{', '.join(texts)} {scale.symbol}"
     ).rstrip() + more
 
 

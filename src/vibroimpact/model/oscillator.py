@@ -233,7 +233,7 @@ class Oscillator(System):
             if stop.remembers:
                 raise InputError(
                     f"{side}: a {type(stop).__name__} is a stop of assemblies only; use an "
-                    "Assembly of one mass"
+                    "Assembly of one mass, or [assembly] in a study file"
                 )
         return self
 

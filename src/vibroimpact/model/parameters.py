@@ -400,8 +400,8 @@ def _steps(rig: Rig, name: str, typed: str) -> list[Steps]:
         for *steps, last in paths:
             if last == "kind" and (law := _part(system, steps)) is not None:
                 raise InputError(
-                    f"parameter: {name}: the law is {type(law).__name__}; to change it, write a "
-                    "rig with all numbers of another law"
+                    f"parameter: {name}: the law is {type(law).__name__}; to change it, edit "
+                    "the study file, or write a rig with all numbers of another law"
                 )
         raise _unknown(typed, rig, "parameter")
     return paths
@@ -510,7 +510,8 @@ def _uneven(name: str, places: list[Place]) -> InputError:
         if len(symbols) == 1
         else f"units of {field}, {' and '.join(symbols)}"
     )
-    own = " or ".join(repr(f"{'.'.join(one.steps)}") for one in places)
+    paths = (_path(one.steps) if len(one.steps) > 2 else ".".join(one.steps) for one in places)
+    own = " or ".join(map(repr, paths))
     return InputError(
         f"{name}: the stops have different {words}; use {own}, or a rig with equal stops"
     )

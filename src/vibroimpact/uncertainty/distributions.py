@@ -85,6 +85,8 @@ def _made(
         return ends
 
     made: Distribution
+    if kind in ("normal", "uniform", "triangular") and len(texts) > 1:
+        check_stated_units(texts, varied.quantity, field)
     match kind, texts:
         case "normal", [share]:
             made = scipy.stats.norm(own(), number(share) * abs(own()))
@@ -118,8 +120,6 @@ def _made(
             made = scipy.stats.triang((middle - first) / (last - first), first, last - first)
         case _:
             raise _Unknown
-    if kind != "lognormal" and len(texts) > 1:
-        check_stated_units(texts, varied.quantity, field)
     return made
 
 

@@ -43,7 +43,8 @@ class AssemblyState(Model):
         at rest.
     deformation
         Mapping from stops to deformations in m, at least 0. A stop that is not named is undeformed,
-        or compressed as far as its two bodies overlap.
+        or compressed as far as its two bodies overlap. Of a stop with a memory (`ZenerBumper`) it
+        is the memory, the deformation at which a free face stands; default: 0.
     memory
         Mapping from hysteretic links to their internal variables z in m, as `State` explains for
         the isolator. A link that is not named has z = 0.

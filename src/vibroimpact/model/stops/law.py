@@ -137,9 +137,9 @@ class StopWithMemory(StopLaw):
 
     Only an `Assembly` can have them; an oscillator is an assembly of one mass. The memory is the
     deformation (m) at which the face stands while no body touches it. A new law has a ``kind``, its
-    fields (one of them ``gap``), `static_force`, and `engine_numbers` that return a `MemoryStop`
-    with the name of its formulas in ``engine/stops/memory_laws.py``; if the memory is not the
-    deformation itself while the stop is pressed, also `remembered` and `stored_energy`.
+    fields (one of them ``gap``), `static_force`, `force`, and `engine_numbers` that return a
+    `MemoryStop` with the name of its formulas in ``engine/stops/memory_laws.py``; if the memory is
+    not the deformation itself while the stop is pressed, also `remembered` and `stored_energy`.
     """
 
     @property
