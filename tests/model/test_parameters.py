@@ -193,7 +193,7 @@ def test_one_value_does_not_set_numbers_of_different_units():
 
 @pytest.mark.parametrize("path", ["right.kind", "isolator.kind"])
 def test_a_law_is_not_changed_by_its_kind_alone(path):
-    with pytest.raises(vi.InputError, match=rf"{path}: the law is \w+; to change it, write a rig"):
+    with pytest.raises(vi.InputError, match=rf"{path}: the law is \w+; to change it, edit"):
         set_values(vi.Rig(RIG, SHAKEN), {path: "power"})
 
 
