@@ -7,11 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
-from vibroimpact.engine import lyapunov
-from vibroimpact.engine.state import FIRST
+from cycle_derivative import both_derivatives
 from vibroimpact.model import AssemblyState, equilibrium
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
-from vibroimpact.response.engine_system import engine_rig
 
 K, C, GAP = 100.0, 1.0, 0.02
 DRIVE = vi.Harmonic(3.0, 2.0)
@@ -196,23 +194,7 @@ def test_derivative_of_a_cycle() -> None:
     final = as_assembly_state(vi.simulate(rig, 3.4)["final_state"], rig.system)
     start = assembly_vector(rig.system, final)
 
-    def moved(vector):
-        q, damping, vector = np.zeros((3, 3)), np.zeros(1), vector.copy()
-        outcome = lyapunov.monodromy(
-            engine_rig(rig), DRIVE.amplitude, DRIVE.frequency, 0.0, vector, 1, 1000, q, damping
-        )
-        assert outcome == 0
-        return q, vector[FIRST : FIRST + 3], float(damping[0])
-
-    exact, _, damping = moved(start)
-    rows = []
-    for i in range(3):
-        ends = []
-        for sign in (1.0, -1.0):
-            near = start.copy()
-            near[FIRST + i] += sign * 1e-7
-            ends.append(moved(near)[1])
-        rows.append((ends[0] - ends[1]) / 2e-7)
+    exact, rows, damping = both_derivatives(rig, start, 3, 3, 1e-7)
     np.testing.assert_allclose(exact, rows, rtol=0.0, atol=1e-6 * np.abs(exact).max())
     assert np.log(abs(np.linalg.det(exact))) == pytest.approx(-damping, rel=1e-9)
 

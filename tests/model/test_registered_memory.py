@@ -6,19 +6,13 @@ after a contact and returns by c z' = −(k z + h z³).
 
 from __future__ import annotations
 
-import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-import vibroimpact
+from changed_package import answers_of
 
 LAW = """
 LAWS: dict[str, MemoryLaw] = {
@@ -87,12 +81,10 @@ SCRIPT = f"""
 import json, math
 import numpy as np
 import vibroimpact as vi
-from vibroimpact.engine import lyapunov
-from vibroimpact.engine.state import FIRST
+from cycle_derivative import both_derivatives
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.stops.hardening import HardeningStop
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
-from vibroimpact.response.engine_system import engine_rig
 
 numbers = {NUMBERS}
 system = vi.Assembly(
@@ -113,27 +105,7 @@ half = vi.simulate(rig, 2.3, samples=0)
 resumed = vi.simulate(rig, {CYCLES} - 2.3, half, samples=0)
 state = as_assembly_state(motion["final_state"], system)
 start = assembly_vector(system, state)
-parts = len(start) - 5
-
-
-def moved(vector):
-    q, damping, vector = np.zeros((parts, parts)), np.zeros(1), vector.copy()
-    outcome = lyapunov.monodromy(
-        engine_rig(rig), {DRIVE}, {FREQUENCY}, 0.0, vector, 1, 1000, q, damping
-    )
-    assert outcome == 0
-    return q[:6, :6], vector[FIRST : FIRST + 6]
-
-
-exact, _ = moved(start)
-rows = []
-for i in range(6):
-    ends = []
-    for sign in (1.0, -1.0):
-        near = start.copy()
-        near[FIRST + i] += sign * 1e-7
-        ends.append(moved(near)[1])
-    rows.append((ends[0] - ends[1]) / 2e-7)
+exact, rows, _ = both_derivatives(rig, start, len(start) - 5, 6, 1e-7)
 made = {{
     "state": motion["final_state"].values[:6].tolist(),
     "resumed": resumed["final_state"].values[:6].tolist(),
@@ -149,26 +121,8 @@ print(json.dumps(made))
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """A copy of the package with the law, as plain Python: nothing is compiled."""
     pytest.importorskip("numba")
-    folder = tmp_path_factory.mktemp("package")
-    source, target = Path(vibroimpact.__path__[0]), folder / "vibroimpact"
-    shutil.copytree(source, target, ignore=shutil.ignore_patterns("libraries", "__pycache__"))
-    for name, edits in EDITS.items():
-        path = target / name
-        text = path.read_text() if path.exists() else ""
-        for before, after in edits:
-            assert text.count(before) == 1  # an empty text has one empty place
-            text = text.replace(before, after)
-        path.write_text(text)
-    plain = {"NUMBA_DISABLE_JIT": "1", "VIBROIMPACT_ENGINE": "numba", "PYTHONPATH": str(folder)}
-    command = [sys.executable, "-c", SCRIPT]
-    done = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=900, env=os.environ | plain
-    )
-    assert done.returncode == 0, done.stderr
-    result: dict[str, Any] = json.loads(done.stdout)
-    return result
+    return answers_of(tmp_path_factory.mktemp("package"), EDITS, SCRIPT)
 
 
 @pytest.fixture(scope="module")

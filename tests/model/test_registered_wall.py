@@ -7,18 +7,12 @@ with p = 0.234 that of ice (F. G. Bridges, A. Hatzes, D. N. C. Lin, Nature 309 (
 
 from __future__ import annotations
 
-import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-import vibroimpact
+from changed_package import answers_of
 
 LAW = '''
 def falling(numbers: Vector, at: int, speed: float) -> Rebound:
@@ -84,14 +78,12 @@ SCRIPT = """
 import json, math
 import numpy as np
 import vibroimpact as vi
-from vibroimpact.engine import lyapunov
-from vibroimpact.engine.state import FIRST
+from cycle_derivative import both_derivatives
 from vibroimpact.figures.assembly_histories import impulses
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.stops.falling import FallingStop
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
 from vibroimpact.response.engine_input import as_state, engine_state
-from vibroimpact.response.engine_system import engine_rig
 from vibroimpact.response.motion_phases import parting_velocity
 
 SHAKEN = vi.Harmonic(1.0, 1.0 / (2.0 * math.pi))
@@ -121,23 +113,7 @@ def carried(rig, data):
         vector, n = assembly_vector(rig.system, state), len(rig.system.masses)
     parts = 5 if one else len(vector) - 5
 
-    def moved(vector):
-        q, damping, vector = np.zeros((parts, parts)), np.zeros(1), vector.copy()
-        outcome = lyapunov.monodromy(
-            engine_rig(rig), 1.0, SHAKEN.frequency, 0.0, vector, 1, 1000, q, damping
-        )
-        assert outcome == 0
-        return q[: 2 * n, : 2 * n], float(damping[0]), vector[FIRST : FIRST + 2 * n]
-
-    exact, damping, _ = moved(vector)
-    rows = []
-    for i in range(2 * n):
-        ends = []
-        for sign in (1.0, -1.0):
-            near = vector.copy()
-            near[FIRST + i] += sign * 1e-6
-            ends.append(moved(near)[2])
-        rows.append((ends[0] - ends[1]) / 2e-6)
+    exact, rows, damping = both_derivatives(rig, vector, parts, 2 * n, 1e-6)
     return {
         "apart": float(np.abs(exact - rows).max() / np.abs(exact).max()),
         "volume": [math.log(abs(np.linalg.det(exact))), -damping],
@@ -194,26 +170,8 @@ print(json.dumps(made))
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """A copy of the package with the law, as plain Python: nothing is compiled."""
     pytest.importorskip("numba")
-    folder = tmp_path_factory.mktemp("package")
-    source, target = Path(vibroimpact.__path__[0]), folder / "vibroimpact"
-    shutil.copytree(source, target, ignore=shutil.ignore_patterns("libraries", "__pycache__"))
-    for name, edits in EDITS.items():
-        path = target / name
-        text = path.read_text() if path.exists() else ""
-        for before, after in edits:
-            assert text.count(before) == 1  # an empty text has one empty place
-            text = text.replace(before, after)
-        path.write_text(text)
-    plain = {"NUMBA_DISABLE_JIT": "1", "VIBROIMPACT_ENGINE": "numba", "PYTHONPATH": str(folder)}
-    command = [sys.executable, "-c", SCRIPT]
-    done = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=900, env=os.environ | plain
-    )
-    assert done.returncode == 0, done.stderr
-    result: dict[str, Any] = json.loads(done.stdout)
-    return result
+    return answers_of(tmp_path_factory.mktemp("package"), EDITS, SCRIPT)
 
 
 def restitution(speed: Any, e: float = 0.8) -> Any:

@@ -375,7 +375,7 @@ def _with_derived(rig: Rig, name: str, value: Any) -> Rig:
 def _steps(rig: Rig, name: str, typed: str) -> list[Steps]:
     """Return where a field stands. A path of all stops stands for those that have the field.
 
-    An error names the path as it was typed.
+    `typed` is the path as it was typed, for errors.
     """
     system = rig.system
     if name in _places(system):

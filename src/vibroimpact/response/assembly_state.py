@@ -15,9 +15,7 @@ from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.state import FIRST, FRESH, MODE
 from vibroimpact.engine.stops import memory_laws
 from vibroimpact.errors import InputError, shown
-from vibroimpact.law_numbers import MemoryStop
 from vibroimpact.model import Assembly, AssemblyState, State
-from vibroimpact.model.assembly.numbers import numbers
 from vibroimpact.model.assembly.state import NEAR_ZERO
 from vibroimpact.model.stops import Stop
 from vibroimpact.response.assembly_rig import link_parts
@@ -139,8 +137,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
     frequency = assembly.angular_frequency
     fastest = max(float(np.abs(v).max()), frequency * float(np.abs(u).max()))
     farthest = max(float(np.abs(u).max()), fastest / (frequency or math.inf))
-    parts = numbers(assembly).stops
-    for f, (part, (name, stop)) in enumerate(zip(parts, assembly.stops.items(), strict=True)):
+    for f, (name, stop) in enumerate(assembly.stops.items()):
         w, law = assembly.closing(stop), stop.stop
         reach, closing = float(w @ u) - law.gap, float(w @ v)
         speeds = float(np.abs(w) @ np.abs(v))
@@ -162,7 +159,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                 still = abs(closing) <= max(_AT_REST * speeds, TOUCHING * fastest, NEAR_ZERO)
                 touches = reach >= -max(slack, TOUCHING * farthest, NEAR_ZERO) and still
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
-        elif isinstance(made := part.law.engine_numbers(), MemoryStop):
+        elif law.remembers:
             d = state.deformation.get(name, 0.0)
             touches = reach > d + slack or (bool(said) and reach >= d - slack)
             if touches and said is False:
@@ -170,7 +167,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                     f"start.touching: {name!r} is missing, but its face, which stands at {d:g} m, "
                     f"is pressed in to {reach:g} m; add it to touching, or change deformation"
                 )
-            if touches and memory_laws.LAWS[made.law].rate is None:
+            if touches and _formulas(law)[0].rate is None:
                 d = reach
             why = f"do not press it (distance {d - reach:g} m)"
         elif (pair := law.spring_and_dashpot) is None:
@@ -259,8 +256,7 @@ def _parting(law: Stop, d: float, closing: float, speeds: float) -> int:
     bodies.
     """
     if law.remembers:
-        made: Any = law.engine_numbers()
-        recedes = memory_laws.LAWS[made.law].free_rate(made.numbers, d) - closing
+        recedes = free_rate(law, d) - closing
         return 0 if recedes < 0.0 else 1 if recedes > 0.0 else 2
     if (pair := law.spring_and_dashpot) is not None and d > 0.0:
         spring = pair[0] * d
@@ -268,6 +264,18 @@ def _parting(law: Stop, d: float, closing: float, speeds: float) -> int:
     if closing > 0.0 and closing > _AT_REST * speeds:
         return 0
     return 1 if closing < -_AT_REST * speeds else 2
+
+
+def _formulas(law: Stop) -> tuple[memory_laws.MemoryLaw, tuple[float, ...]]:
+    """Return the formulas of a stop with a memory, and their numbers."""
+    made: Any = law.engine_numbers()
+    return memory_laws.LAWS[made.law], made.numbers
+
+
+def free_rate(law: Stop, memory: float) -> float:
+    """Return the rate (m/s) of the memory (m) of a stop while nothing touches it."""
+    formulas, of = _formulas(law)
+    return float(formulas.free_rate(of, memory))
 
 
 def _packed(zeros: dict[int, int]) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -12,11 +12,11 @@ from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.datasets.stops import part_names
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.state import FIRST
-from vibroimpact.engine.stops import memory_laws
 from vibroimpact.model import Record, Repeated
 from vibroimpact.model.argument_types import NonNegative
 from vibroimpact.model.public import public
 from vibroimpact.model.rig import several_masses_only
+from vibroimpact.response.assembly_state import free_rate
 from vibroimpact.response.engine_system import engine_system
 from vibroimpact.response.motion_phases import Origin, Phases, phases, recorded
 
@@ -246,8 +246,6 @@ def _with_memories(
         memory = motion["event_displacement"].values[events] @ all_phases.closing[stop] - law.gap
         last = all_phases.final[FIRST + 2 * len(system.names) + stop]
         energy = np.array([law.stored_energy(one, one) for one in [*memory, float(last)]])
-        made: Any = law.engine_numbers()
-        recedes = memory_laws.LAWS[made.law].free_rate
         for k in mine:
             begin, end = chosen.begin[k], chosen.begin[k] + chosen.length[k]
             if origin.periodic and end > whole:  # cut in two by the section
@@ -256,7 +254,7 @@ def _with_memories(
             met = left + 1 if left + 1 < len(times) or not origin.periodic else 0
             lost[k] -= energy[left] - energy[at]
             relaxing[k] = energy[left] - energy[met]
-            closing[k] -= recedes(made.numbers, memory[at])
+            closing[k] -= free_rate(law, memory[at])
     return chosen._replace(closing=closing, dissipated=lost, relaxing=relaxing)
 
 
